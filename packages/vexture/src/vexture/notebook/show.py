@@ -142,7 +142,7 @@ def _texture_of(source: Any, options: dict[str, Any]) -> "Texture":
     if not isinstance(source, Drawing):
         reading = {name: options.pop(name) for name in READING if name in options}
         source = read(Path(source), **reading)
-    flat = all(path.paint.gradient is None for path in source.paths)
+    flat = not any(path.paint.is_varied for path in source.paths)
     named = any(path.element for path in source.paths)
     chosen = {"precision": VIEWER_PARAMETERS.precision, "restyle": flat and named, **options}
     return convert(source, **chosen)

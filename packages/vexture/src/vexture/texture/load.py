@@ -120,7 +120,7 @@ def texture_from(data: bytes, source: str) -> Texture:
             raise FormatError("it is a fold, which three.js applies to the texture of a shape; give that texture here")
         for key, known in (
             (layout.TEXT_ENCODING, (layout.ENCODING_PACKED,)),
-            (layout.TEXT_VERSION, (layout.PACKED_VERSION, layout.MAP_VERSION)),
+            (layout.TEXT_VERSION, (layout.PACKED_VERSION, layout.MAP_VERSION, layout.PICTURE_VERSION)),
         ):
             if texts.get(key) not in known:
                 found, read = repr(texts.get(key))[:80], " and ".join(map(repr, known))
@@ -130,8 +130,9 @@ def texture_from(data: bytes, source: str) -> Texture:
         texture = Texture(texels, roots, name, texts.get(layout.TEXT_SOURCE))
         if texture.version != texts[layout.TEXT_VERSION]:
             raise FormatError(
-                f"{layout.TEXT_VERSION} is {texts[layout.TEXT_VERSION]!r}, but with maps it is {layout.MAP_VERSION!r} "
-                f"and without {layout.PACKED_VERSION!r}; {REMEDY}"
+                f"{layout.TEXT_VERSION} is {texts[layout.TEXT_VERSION]!r}, but with pictures it is "
+                f"{layout.PICTURE_VERSION!r}, with maps {layout.MAP_VERSION!r} and without "
+                f"{layout.PACKED_VERSION!r}; {REMEDY}"
             )
         texture.check()
     except FormatError as error:
