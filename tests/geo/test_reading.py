@@ -203,7 +203,7 @@ def test_a_text_in_place_of_a_path_is_refused(function: Callable[[Any], Any], te
         ({"fonts": [3]}, "`fonts` is [3]; it must be paths of font files or folders of fonts"),
         ({"fonts": [b"abc"]}, "`fonts` is [b'abc']; it must be paths of font files or folders of fonts"),
         ({"fonts": "no.ttf"}, "no.ttf: it is no file; give a font file or a folder of fonts"),
-        ({"trace_images": "yes"}, "`trace_images` is 'yes'; it must be True or False"),
+        ({"images": "yes"}, "`images` is 'yes'; it must be 'draw', 'trace', 'none'"),
         ({"select": 5}, "`select` is 5; it must be text"),
         ({"names": 5}, "`names` is 5; it must be text"),
     ],

@@ -36,6 +36,9 @@ SPACES: Final = {"RGB": "RGB", "GRAY": "L", "CMYK": "CMYK"}
 SAME: Final = 2
 """Largest difference, in levels of 255, of a profile from sRGB that is ignored: the rounding of tables."""
 
+BAND: Final = 256
+"""Rows that are rounded at once."""
+
 SRGB_GAMMA: Final = 0.45455
 """Value of the chunk gAMA that PNG defines as equivalent to sRGB."""
 
@@ -128,9 +131,9 @@ def _decode(picture: "Image.Image", content: bytes) -> DecodedPicture:
 def _plain(picture: "Image.Image", depth: int) -> "Image.Image":
     """Return a picture of up to 8 bits a channel in a mode that profiles know, or in RGBA if it has opacities."""
     key = picture.info.get("transparency")
-    if isinstance(key, int) and picture.mode in ("1", "L"):  # Pillow scales grays of few bits, but not this one
-        gray = np.asarray(picture.convert("L"))
-        opaque = gray != key * 255 // (2**depth - 1)
+    if isinstance(key, int) and picture.mode in ("1", "L"):
+        gray, most = np.asarray(picture.convert("L")), 2**depth - 1
+        opaque = gray != (key * 255 // most if key <= most else key)  # Pillow scales this one only of a single bit
         return _with_opacity(gray[..., None].repeat(3, axis=2), np.where(opaque, 255, 0))
     if key is not None or picture.mode in ("PA", "LA", "La", "RGBa"):
         return picture.convert("RGBA")
@@ -139,34 +142,41 @@ def _plain(picture: "Image.Image", depth: int) -> "Image.Image":
 
 def _from_16_bits(picture: "Image.Image", content: bytes) -> "Image.Image":
     """Return a PNG of 16 bits a channel, rounded to 8; Pillow alone drops the lower bits, and opacity by colour."""
+    from PIL import Image
+
     key = picture.info.get("transparency")
-    if picture.mode.startswith("I"):
-        values = np.asarray(picture, np.int64)[..., None].repeat(3, axis=2)
-    else:
-        values = _levels_of_16_bits(np.asarray(picture, np.int64), content)
-    opacity = values[..., 3] if values.shape[2] == 4 else np.full(values.shape[:2], 65535)
-    if key is not None:
-        opacity = np.where((values[..., :3] == np.array(key)).all(axis=2), 0, opacity)
-    rounded = (np.concatenate([values[..., :3], opacity[..., None]], axis=2) * 255 + 32767) // 65535
-    return _with_opacity(rounded[..., :3], rounded[..., 3])
+    levels = _levels_of_16_bits(picture, content)
+    pixels = np.empty((*levels.shape[:2], 4), np.uint8)
+    for first in range(0, len(levels), BAND):  # in parts, for the memory
+        part = levels[first : first + BAND].astype(np.uint32)
+        channels = part.shape[2]
+        rounded = (part * 255 + 32767) // 65535
+        pixels[first : first + BAND, :, :3] = rounded[..., : 3 if channels > 2 else 1]
+        opacity = rounded[..., -1] if channels in (2, 4) else np.full(part.shape[:2], 255, np.uint32)
+        if key is not None:
+            opacity = np.where((part[..., : 3 if channels > 2 else 1] == np.array(key)).all(axis=2), 0, opacity)
+        pixels[first : first + BAND, :, 3] = opacity
+    return Image.fromarray(pixels)
 
 
-def _levels_of_16_bits(high: NDArray[np.int64], content: bytes) -> NDArray[np.int64]:
-    """Return the levels of a PNG of 16 bits a channel, whose higher bytes are those that Pillow reads.
+def _levels_of_16_bits(picture: "Image.Image", content: bytes) -> NDArray[np.uint16]:
+    """Return the levels of a PNG of 16 bits a channel, (height, width, channels).
 
-    The lower bytes are what it reads if it takes the numbers as little-endian.
+    Pillow reads the higher bytes of colours; the lower ones are what it reads if it takes numbers as little-endian.
     """
     from PIL import Image
 
+    if picture.mode.startswith("I"):
+        return np.asarray(picture).astype(np.uint16)[..., None]
     with Image.open(BytesIO(content), formats=("PNG",)) as again:
         tile = again.tile[0]
         kind = str(tile[3])
-        again.tile = [tile._replace(args="RGBA" if kind == "LA;16B" else kind.replace(";16B", ";16L"))]
-        low = np.asarray(again, np.int64)
-    if kind == "LA;16B":  # the bytes of both numbers, in order
-        gray, opacity = 256 * low[..., 0] + low[..., 1], 256 * low[..., 2] + low[..., 3]
-        return np.stack([gray, gray, gray, opacity], axis=2)
-    return 256 * high + low
+        has_gray = kind == "LA;16B"
+        again.tile = [tile._replace(args="RGBA" if has_gray else kind.replace(";16B", ";16L"))]
+        low = np.asarray(again)
+    if has_gray:  # the bytes of both numbers, in order
+        return low.view(">u2").astype(np.uint16)
+    return (np.asarray(picture).astype(np.uint16) << 8) | low
 
 
 def _with_opacity(colours: NDArray[np.integer], opacity: NDArray[np.integer]) -> "Image.Image":
@@ -185,12 +195,16 @@ def _to_srgb(picture: "Image.Image", profile: bytes) -> "Image.Image | None":
         mode = SPACES[own.profile.xcolor_space.strip()]
         if mode != ("RGB" if has_opacity else picture.mode) and not (has_opacity and mode == "L"):
             return None
-        change = ImageCms.buildTransform(
-            own, ImageCms.createProfile("sRGB"), mode, "RGB", ImageCms.getDefaultIntent(own)
-        )
+        target, intent = ImageCms.createProfile("sRGB"), ImageCms.Intent(ImageCms.getDefaultIntent(own))
+        flags = ImageCms.Flags.NOOPTIMIZE if mode == "L" else ImageCms.Flags.NONE
+        change = ImageCms.buildTransform(own, target, mode, "RGB", intent, flags)
         if mode == "RGB" and _is_srgb(change):
             return picture
-        colours = ImageCms.applyTransform(picture.convert(mode) if has_opacity else picture, change)
+        if mode == "L":
+            ramp = np.asarray(ImageCms.applyTransform(Image.fromarray(np.arange(256, dtype=np.uint8)[None]), change))
+            colours = Image.fromarray(ramp[0][np.asarray(picture.convert("L"))])
+        else:
+            colours = ImageCms.applyTransform(picture.convert(mode) if has_opacity else picture, change)
     except (ImageCms.PyCMSError, KeyError, OSError, ValueError, TypeError):
         return None
     assert isinstance(colours, Image.Image)

@@ -235,7 +235,7 @@ def _read_picture(source: Place | bytes, label: str, images: ImageTreatment) -> 
 
 
 def traced_if_outlined(source: Any, reading: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a reader for a silhouette: a picture, which has no outlines, is traced."""
+    """Return the parameters of a reader for outlines rather than colours: a picture, which has none, is traced."""
     if isinstance(source, str | bytes | os.PathLike) and "images" not in reading:
         with suppress(SourceError):  # which the reader raises
             given = unpack_source(source)

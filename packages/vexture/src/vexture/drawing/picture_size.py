@@ -60,10 +60,16 @@ def halve(pixels: NDArray[np.uint8], times: int) -> NDArray[np.uint8]:
     if times == 0:
         return pixels
     side = 1 << times
-    starts = [np.arange(0, size, side) for size in pixels.shape[:2]]
-    sums = np.add.reduceat(pixels, starts[0], axis=0, dtype=np.int64)
-    sums = np.add.reduceat(sums, starts[1], axis=1)
-    heights, widths = (np.diff(np.append(start, size)) for start, size in zip(starts, pixels.shape[:2], strict=True))
+    rows, columns = pixels.shape[:2]
+    by_rows = np.zeros((-(-rows // side), columns, 4), np.uint32)
+    for first in range(min(side, rows)):
+        part = pixels[first::side]
+        by_rows[: len(part)] += part
+    sums = np.zeros((len(by_rows), -(-columns // side), 4), np.int64)
+    for first in range(min(side, columns)):
+        part = by_rows[:, first::side]
+        sums[:, : part.shape[1]] += part
+    heights, widths = (np.diff(np.append(np.arange(0, size, side), size)) for size in (rows, columns))
     counts = (heights[:, None] * widths)[..., None]
     means: NDArray[np.uint8] = ((2 * sums + counts) // (2 * counts)).astype(np.uint8)
     return means
