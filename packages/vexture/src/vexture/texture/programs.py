@@ -9,7 +9,7 @@ from vexture.base import layout
 from vexture.base.errors import FormatError
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Spread
-from vexture.drawing.picture import MOST_SIDE, Sampling
+from vexture.drawing.picture import Sampling
 from vexture.texture.pixel_texels import first_bad_pixel, read_pixels
 from vexture.texture.program_texels import SPREAD_SHIFT
 from vexture.texture.walk import REMEDY
@@ -191,7 +191,7 @@ def _check_pictures(texels: ProgramTexels, rows: NDArray[np.int64]) -> None:
     first, columns, lines = _pictures_in(texels, rows)
     sides = np.concatenate([columns, lines])
     _need(
-        bool(((sides >= 1) & (sides <= MOST_SIDE)).all()), f"a picture without pixels, or more than {MOST_SIDE} a side"
+        bool(((sides >= 1) & (sides <= layout.MOST_PICTURE_SIDE)).all()), f"a picture without pixels, or more than {MOST_SIDE} a side"
     )
     pictures = np.unique(np.column_stack([first, columns, lines]), axis=0)
     ends = pictures[:, 0] + np.array([_texels_of_picture(*size) for size in pictures[:, 1:].tolist()], np.int64)
