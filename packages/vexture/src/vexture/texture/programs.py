@@ -191,7 +191,8 @@ def _check_pictures(texels: ProgramTexels, rows: NDArray[np.int64]) -> None:
     first, columns, lines = _pictures_in(texels, rows)
     sides = np.concatenate([columns, lines])
     _need(
-        bool(((sides >= 1) & (sides <= layout.MOST_PICTURE_SIDE)).all()), f"a picture without pixels, or more than {MOST_SIDE} a side"
+        bool(((sides >= 1) & (sides <= layout.MOST_PICTURE_SIDE)).all()),
+        f"a picture without pixels, or more than {layout.MOST_PICTURE_SIDE} a side",
     )
     pictures = np.unique(np.column_stack([first, columns, lines]), axis=0)
     ends = pictures[:, 0] + np.array([_texels_of_picture(*size) for size in pictures[:, 1:].tolist()], np.int64)
