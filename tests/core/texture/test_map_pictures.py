@@ -14,7 +14,7 @@ from gradient_drawings import DRAWINGS, SQUARE, WARM, linear, painted_path
 from picture_drawings import DISC, PICTURES, fitted, pictured_path, random_picture, random_pixels
 from planar import colours_at
 from vexture.base import layout
-from vexture.base.errors import FormatError
+from vexture.base.errors import FormatError, SourceError
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing
@@ -22,6 +22,7 @@ from vexture.drawing.group import Group, Mask
 from vexture.drawing.paint import Paint
 from vexture.drawing.picture import Picture, Sampling
 from vexture.texture.load import texture_from
+from vexture.texture.pick import paints_at
 from vexture.texture.planar import decode_map, map_texels
 from vexture.texture.texture import Texture
 from vexture.tree.planar.programs import Keep, Mix, Solid
@@ -118,8 +119,6 @@ def test_random_pictures_have_their_colours(seed: int) -> None:
     texture = texture_from(faces(of).to_ktx2(), "it")
     planar, points = decode_map(texture.flat, texture.roots[0].quad), rng.random((40, 2))
     wanted, distance = colours_at(of, points)
-    from vexture.texture.pick import paints_at
-
     paints = np.empty(len(points), np.int64)
     paints_at(texture.flat, texture.roots[0].quad, points, paints)
     for point, paint, colour, away in zip(points.tolist(), paints.tolist(), wanted, distance, strict=True):
@@ -234,3 +233,9 @@ def test_a_file_of_the_other_version_is_refused(name: str, version: bytes) -> No
     with pytest.raises(FormatError, match=r"vexture\.version is") as caught:
         texture_from(damaged, "it")
     assert "\n" not in str(caught.value)
+
+
+def test_a_picture_that_is_too_small_is_refused() -> None:
+    picture = Picture(((1e30, 0, 0), (0, 1, 0)), random_pixels(np.random.default_rng(1), 2, 2))
+    with pytest.raises(SourceError, match=r"has the number 1e\+30; the limit is 1\.64e\+13; make the picture larger"):
+        vexture.convert(Drawing((pictured_path(SQUARE, picture),)))
