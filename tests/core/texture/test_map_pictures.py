@@ -1,5 +1,7 @@
 """Pictures of planar maps in textures: written, read back, looked up, and refused where they are damaged."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,7 +14,7 @@ from gradient_drawings import DRAWINGS, SQUARE, WARM, linear, painted_path
 from picture_drawings import DISC, PICTURES, fitted, pictured_path, random_picture, random_pixels
 from planar import colours_at
 from vexture.base import layout
-from vexture.base.errors import FormatError
+from vexture.base.errors import FormatError, SourceError
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing
@@ -20,6 +22,7 @@ from vexture.drawing.group import Group, Mask
 from vexture.drawing.paint import Paint
 from vexture.drawing.picture import Picture, Sampling
 from vexture.texture.load import texture_from
+from vexture.texture.pick import paints_at
 from vexture.texture.planar import decode_map, map_texels
 from vexture.texture.texture import Texture
 from vexture.tree.planar.programs import Keep, Mix, Solid
@@ -116,8 +119,6 @@ def test_random_pictures_have_their_colours(seed: int) -> None:
     texture = texture_from(faces(of).to_ktx2(), "it")
     planar, points = decode_map(texture.flat, texture.roots[0].quad), rng.random((40, 2))
     wanted, distance = colours_at(of, points)
-    from vexture.texture.pick import paints_at
-
     paints = np.empty(len(points), np.int64)
     paints_at(texture.flat, texture.roots[0].quad, points, paints)
     for point, paint, colour, away in zip(points.tolist(), paints.tolist(), wanted, distance, strict=True):
@@ -144,7 +145,7 @@ def test_equal_pixels_are_stored_once() -> None:
 
 
 def test_maps_with_and_without_pictures_share_a_file() -> None:
-    both = atlas([PICTURES["photo"], DRAWINGS["groups"]], split="faces")
+    both = atlas([replace(PICTURES["photo"], name="photo"), DRAWINGS["groups"]], split="faces")
     again = texture_from(both.to_ktx2(), "both")
     assert again.version == "3"
     np.testing.assert_array_equal(again.texels, both.texels)
@@ -162,9 +163,8 @@ def test_a_picture_is_a_map_with_or_without_a_choice() -> None:
 def test_colours_that_can_be_changed_are_flat() -> None:
     conversion = run(PICTURES["photo"], Parameters("faces", restyle=True))
     assert conversion.texture.version == "2"
-    assert [note.message for note in conversion.notes] == [
-        "picture, of its mean colour, as colours that can be changed are flat"
-    ]
+    messages = [note.message for note in conversion.notes]
+    assert "picture, of its mean colour, as colours that can be changed are flat" in messages
 
 
 def test_pictures_in_too_many_groups_are_flat_and_noted() -> None:
@@ -187,7 +187,7 @@ def test_pictures_in_too_many_groups_are_flat_and_noted() -> None:
         ("programs", 0, 1, 9, "without pixels"),
         ("programs", 0, 1, 7 << 16, "without pixels"),
         ("programs", 0, 1, 16385 | 1 << 16, "more than 16384"),
-        ("programs", 0, 1, 9 | 8 << 16, "pixels elsewhere"),
+        ("programs", 0, 1, 9 | 9 << 16, "pixels elsewhere"),
         ("programs", 0, 2, 0, "pixels elsewhere"),
         ("programs", 0, 2, 2, "pixels elsewhere"),
         ("programs", 0, 2, (1 << 32) - 1, "pixels elsewhere"),
@@ -233,3 +233,9 @@ def test_a_file_of_the_other_version_is_refused(name: str, version: bytes) -> No
     with pytest.raises(FormatError, match=r"vexture\.version is") as caught:
         texture_from(damaged, "it")
     assert "\n" not in str(caught.value)
+
+
+def test_a_picture_that_is_too_small_is_refused() -> None:
+    picture = Picture(((1e30, 0, 0), (0, 1, 0)), random_pixels(np.random.default_rng(1), 2, 2))
+    with pytest.raises(SourceError, match=r"has the number 1e\+30; the limit is 1\.64e\+13; make the picture larger"):
+        vexture.convert(Drawing((pictured_path(SQUARE, picture),)))

@@ -24,7 +24,7 @@ MIX = layout.KIND_MIX << layout.KIND_SHIFT
         ("head", 0, 2, 2, "stops elsewhere"),
         ("programs", 0, 3, 0, "wrong length"),
         ("head", 0, 3, 1 << 31, "end at texel"),
-        ("programs", 0, 3, layout.KIND_FOLLOWS << layout.KIND_SHIFT, "half of one"),
+        ("programs", 0, 3, layout.KIND_FOLLOWS << layout.KIND_SHIFT, "half of an operation"),
         ("programs", 0, 3, layout.KIND_FOCAL << layout.KIND_SHIFT, "wrong length"),
         ("programs", 0, 3, GRADIENT, "stops elsewhere"),
         ("programs", 0, 3, GRADIENT | (1 << layout.STOP_BITS) - 1, "stops elsewhere"),

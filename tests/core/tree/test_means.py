@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from degenerate import circle, drawing, polygon
 from gradient_drawings import (
@@ -11,7 +13,7 @@ from gradient_drawings import (
     linear,
     painted_path,
 )
-from picture_drawings import PICTURES, fitted, pictured_path, random_pixels
+from picture_drawings import DISC, PICTURES, fitted, pictured_path, random_picture, random_pixels
 from planar import cell_at, colour_paths, sample_picture
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Group, Mask
@@ -110,3 +112,12 @@ def test_means_of_pictures_are_those_of_many_points(name: str) -> None:
     planar = build_map(PICTURES[name])
     wanted = sample_picture(PICTURES[name], 2, 48)
     np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], wanted, atol=2 / 255)
+
+
+@settings(max_examples=12, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_means_of_random_pictures_are_those_of_many_points(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    of = Drawing((pictured_path(SQUARE, random_picture(rng)), pictured_path(DISC, random_picture(rng))))
+    wanted = sample_picture(of, 2, 32)
+    np.testing.assert_allclose(build_map(of).mean[0].reshape(2, 2, 4)[::-1], wanted, atol=4 / 255)

@@ -123,7 +123,7 @@ def texture_from(data: bytes, source: str) -> Texture:
             (layout.TEXT_VERSION, (layout.PACKED_VERSION, layout.MAP_VERSION, layout.PICTURE_VERSION)),
         ):
             if texts.get(key) not in known:
-                found, read = repr(texts.get(key))[:80], " and ".join(map(repr, known))
+                found, read = repr(texts.get(key))[:80], ", ".join(map(repr, known))
                 raise FormatError(f"{key} is {found}; this program reads {read}; update it or {REMEDY}")
         name = texts.get(layout.TEXT_NAME) or Path(source).name.removesuffix(layout.PACKED_SUFFIX)
         roots = read_roots(texts.get(layout.TEXT_ROOTS, ""), read_value(data, layout.TEXT_STYLES))

@@ -6,9 +6,11 @@ from typing import Final, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.base.errors import SourceError
 from vexture.base.kernels import kernel
 from vexture.drawing.paint import Gradient, Spread, Stop
-from vexture.drawing.picture import Picture, Sampling
+from vexture.drawing.picture import MOST_SIDE, Picture, Sampling
+from vexture.drawing.unit_square import FARTHEST
 from vexture.tree.planar.pixels import IS_OPAQUE, SIDE_BITS, SIZE, list_pixels, mean_of_picture, pixels_at
 
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
@@ -37,7 +39,20 @@ PICTURE = -2.0
 OFFSET = 4
 """Column of a stop; the others are its colour and opacity."""
 
+MOST_NUMBER: Final = MOST_SIDE * FARTHEST
+"""Largest number of a map to pixels: shaders compute with 32-bit floats."""
+
 Shade: TypeAlias = Gradient | Picture
+
+
+def check_map(picture: Picture) -> None:
+    """Raise a `SourceError` if a map to pixels has a number that is too large."""
+    most = max(abs(number) for row in picture.to_pixels for number in row)
+    if most > MOST_NUMBER:
+        raise SourceError(
+            f"a picture's map to pixels has the number {most:.3g}; the limit is {MOST_NUMBER:.3g}; "
+            "make the picture larger or the view box smaller"
+        )
 
 
 def shades_of(listed: Sequence[Shade]) -> Shades:
@@ -48,6 +63,7 @@ def shades_of(listed: Sequence[Shade]) -> Shades:
     begin = iter(begins)
     for one in listed:
         if isinstance(one, Picture):
+            check_map(one)
             rows.append([*one.to_pixels[0], *one.to_pixels[1], PICTURE, one.opacity, one.sampling, next(begin), 0])
             continue
         focus = one.focus or (-1.0, -1.0)
