@@ -178,7 +178,8 @@ def shade_over(
         shade_at(shades, number, x, y, out)
         return
     place = row[0] * x + row[1] * y + row[2], row[3] * x + row[4] * y + row[5]
-    across, down = np.hypot(row[0] * width, row[1] * height), np.hypot(row[3] * width, row[4] * height)
+    a, b, d, e = row[0] * width, row[1] * height, row[3] * width, row[4] * height
+    across, down = np.sqrt(a * a + b * b), np.sqrt(d * d + e * e)  # WebAssembly has no function hypot
     mean_of_picture(shades.pixels, int(row[FIRST]), int(row[SPREAD]), place, (across, down), out)
     for c in range(4):
         out[c] *= row[RADIUS]
