@@ -168,6 +168,12 @@ def test_pictures_that_fit_alone_may_not_fit_together(tmp_path: Path) -> None:
     assert len(notes(drawing)) == 1
     shared = {id(path.paint.picture.pixels) for path in drawing.paths if path.paint.picture is not None}
     assert len(shared) == 2
+    for path in drawing.paths:
+        picture = path.paint.picture
+        assert picture is not None
+        ends = [[a * x + b * y + c for a, b, c in picture.to_pixels] for x, y in path.box.tolist()]
+        side = picture.pixels.shape[0]
+        assert sorted(np.ravel(ends).tolist()) == pytest.approx([0.0, 0.0, side, side], abs=1e-9)
     assert 2 * texel_count(700, 700) > MOST_TEXELS >= texel_count(700, 700) + texel_count(350, 350)
 
 
