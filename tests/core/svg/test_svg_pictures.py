@@ -4,18 +4,14 @@ Squares of pixels are compared where `image-rendering` says so, because resvg in
 not; colours between centres are compared on pictures of one slope, where both are the same.
 """
 
-import base64
-import io
 import re
-import warnings
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from numpy.typing import NDArray
 from PIL import Image
+from svg_pictures import BLOCKS, IMAGE, PLACED, SVG, blocks, file_of, link_of, read, slope
 from svg_reference import render_file
 
 import vexture
@@ -28,40 +24,7 @@ from vexture.renderers.exact import render_exact_colours
 from vexture.svg.images import Images
 from vexture.svg.pictures import MOST_TEXELS
 
-SVG = '<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100" viewBox="0 0 100 100">{}</svg>'
 RNG = np.random.default_rng(0)
-
-
-def file_of(pixels: NDArray[np.uint8] | Image.Image, kind: str = "PNG", **options: Any) -> bytes:
-    picture = pixels if isinstance(pixels, Image.Image) else Image.fromarray(pixels)
-    file = io.BytesIO()
-    picture.save(file, kind, **options)
-    return file.getvalue()
-
-
-def link_of(content: bytes, media_type: str = "image/png") -> str:
-    return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
-
-
-def blocks() -> NDArray[np.uint8]:
-    """3 x 2 pixels: six colours, two of them translucent."""
-    colours = [(220, 30, 40, 255), (30, 140, 70, 255), (20, 60, 200, 255)]
-    return np.array([colours, [(250, 200, 20, 255), (20, 20, 20, 128), (200, 40, 220, 64)]], np.uint8)
-
-
-def slope(columns: int, rows: int) -> NDArray[np.uint8]:
-    """Colours that change evenly, which every interpolation draws alike away from the borders."""
-    x, y = np.meshgrid(np.arange(columns), np.arange(rows))
-    return np.stack([40 + 4 * x, 30 + 5 * y, 200 - 2 * x - 2 * y], axis=2).astype(np.uint8)
-
-
-def read(text: str, folder: Path | None = None, **options: Any) -> Drawing:
-    source: Path | bytes = text.encode()
-    if folder is not None:
-        source = folder / "drawing.svg"
-        source.write_text(text)
-    with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        return vexture.read(source, **options)
 
 
 def gap(text: str, drawing: Drawing | None = None) -> tuple[float, float]:
@@ -76,50 +39,6 @@ def gap(text: str, drawing: Drawing | None = None) -> tuple[float, float]:
 
 def notes(drawing: Drawing) -> list[str]:
     return [str(note) for note in drawing.notes if note.kind != "remark"]
-
-
-IMAGE = 'href="{}" image-rendering="optimizeSpeed"'
-BLOCKS = f"<image {IMAGE.format(link_of(file_of(blocks())))} "
-WALL = '<path fill="#fe8" d="M0 0h100v100h-100z"/>'
-
-PLACED = {
-    "fitted": BLOCKS + 'x="10" y="10" width="80" height="80"/>',
-    "sliced": BLOCKS + 'x="10" y="10" width="40" height="80" preserveAspectRatio="xMaxYMid slice"/>',
-    "stretched": BLOCKS + 'x="10" y="10" width="50" height="80" preserveAspectRatio="none"/>',
-    "at the end": BLOCKS + 'x="10" y="10" width="80" height="30" preserveAspectRatio="xMaxYMax meet"/>',
-    "one side": BLOCKS + 'x="10" y="10" width="60"/>',
-    "at its own size, enlarged": '<g transform="scale(25)">' + BLOCKS + "/></g>",
-    "lengths": BLOCKS + 'x="10%" y="5mm" width="1in" style="height: 4em; font-size: 10px"/>',
-    "turned": BLOCKS + 'width="60" height="40" transform="translate(30 10) rotate(20)"/>',
-    "slanted": BLOCKS + 'width="60" height="40" transform="translate(10 10) skewX(30)"/>',
-    "mirrored": BLOCKS + 'width="60" height="40" transform="translate(80 10) scale(-1 1)"/>',
-    "translucent": WALL + BLOCKS + 'x="10" y="10" width="60" height="40" opacity="0.5"/>',
-    "in a translucent group": WALL
-    + '<g opacity="0.5"><rect x="30" y="30" width="60" height="60"/>'
-    + BLOCKS
-    + 'x="10" y="10" width="60" height="40"/></g>',
-    "clipped": '<clipPath id="c"><circle cx="40" cy="40" r="25"/></clipPath>'
-    + BLOCKS
-    + 'x="5" y="10" width="80" height="80" clip-path="url(#c)"/>',
-    "masked": '<mask id="m"><circle cx="40" cy="40" r="25" fill="#888"/></mask>'
-    + BLOCKS
-    + 'x="5" y="10" width="80" height="80" mask="url(#m)"/>',
-    "a mask": '<mask id="m">'
-    + BLOCKS
-    + 'x="10" y="10" width="60" height="40"/></mask><rect width="100" height="100" fill="teal" mask="url(#m)"/>',
-    "a pattern": '<pattern id="p" width="30" height="20" patternUnits="userSpaceOnUse">'
-    + BLOCKS
-    + 'width="30" height="20"/></pattern><circle cx="50" cy="50" r="45" fill="url(#p)"/>',
-    "a marker": '<marker id="k" markerWidth="30" markerHeight="20" markerUnits="userSpaceOnUse">'
-    + BLOCKS
-    + 'width="30" height="20"/></marker><path d="M20 20L60 60" marker-start="url(#k)" marker-end="url(#k)"/>',
-    "used twice": f'<defs><symbol id="s" viewBox="0 0 60 40">{BLOCKS}width="60" height="40"/></symbol></defs>'
-    '<use href="#s" width="45" height="30"/><use href="#s" x="50" y="50" width="30" height="20"/>',
-    "multiplied": WALL + BLOCKS + 'x="10" y="10" width="60" height="40" style="mix-blend-mode: multiply"/>',
-    "cut by a viewport": f'<svg x="20" y="20" width="50" height="30">{BLOCKS}width="60" height="40"/></svg>',
-    "not cut": BLOCKS + 'x="30" y="10" width="40" height="80" preserveAspectRatio="xMidYMid slice" '
-    'style="overflow: visible"/>',
-}
 
 
 @pytest.mark.parametrize("case", PLACED)
@@ -249,6 +168,12 @@ def test_pictures_that_fit_alone_may_not_fit_together(tmp_path: Path) -> None:
     assert len(notes(drawing)) == 1
     shared = {id(path.paint.picture.pixels) for path in drawing.paths if path.paint.picture is not None}
     assert len(shared) == 2
+    for path in drawing.paths:
+        picture = path.paint.picture
+        assert picture is not None
+        ends = [[a * x + b * y + c for a, b, c in picture.to_pixels] for x, y in path.box.tolist()]
+        side = picture.pixels.shape[0]
+        assert sorted(np.ravel(ends).tolist()) == pytest.approx([0.0, 0.0, side, side], abs=1e-9)
     assert 2 * texel_count(700, 700) > MOST_TEXELS >= texel_count(700, 700) + texel_count(350, 350)
 
 
@@ -302,8 +227,9 @@ def test_outlines_of_a_picture_are_traced(tmp_path: Path) -> None:
     pixels = np.full((64, 64), 255, np.uint8)
     pixels[16:32, 16:48] = 0
     file.write_bytes(file_of(pixels))
-    texture = vexture.convert(file, split=None)
-    assert texture.contains([(0.5, 0.6), (0.1, 0.1)]).tolist() == [True, False]
+    for treated in ({"split": None}, {"encoding": "thesis"}, {"images": "trace"}):
+        texture = vexture.convert(file, **treated)
+        assert texture.coverage(32)[[12, 28], [16, 3]].round().tolist() == [1.0, 0.0]
     out = tmp_path / "out.png"
     for flags, corner in (([], 255), (["--trace-images"], 255)):
         result = CliRunner().invoke(main, ["render", str(file), "-o", str(out), "--renderer", "exact", *flags])

@@ -175,8 +175,10 @@ def _levels_of_16_bits(picture: "Image.Image", content: bytes) -> NDArray[np.uin
         again.tile = [tile._replace(args="RGBA" if has_gray else kind.replace(";16B", ";16L"))]
         low = np.asarray(again)
     if has_gray:  # the bytes of both numbers, in order
-        return low.view(">u2").astype(np.uint16)
-    return (np.asarray(picture).astype(np.uint16) << 8) | low
+        levels: NDArray[np.uint16] = low.view(">u2").astype(np.uint16)
+    else:
+        levels = (np.asarray(picture).astype(np.uint16) << 8) | low
+    return levels
 
 
 def _with_opacity(colours: NDArray[np.integer], opacity: NDArray[np.integer]) -> "Image.Image":
@@ -204,10 +206,11 @@ def _to_srgb(picture: "Image.Image", profile: bytes) -> "Image.Image | None":
             ramp = np.asarray(ImageCms.applyTransform(Image.fromarray(np.arange(256, dtype=np.uint8)[None]), change))
             colours = Image.fromarray(ramp[0][np.asarray(picture.convert("L"))])
         else:
-            colours = ImageCms.applyTransform(picture.convert(mode) if has_opacity else picture, change)
+            applied = ImageCms.applyTransform(picture.convert(mode) if has_opacity else picture, change)
+            assert applied is not None  # it is, if the conversion is in place
+            colours = applied
     except (ImageCms.PyCMSError, KeyError, OSError, ValueError, TypeError):
         return None
-    assert isinstance(colours, Image.Image)
     if has_opacity:
         colours.putalpha(picture.getchannel("A"))
     return colours

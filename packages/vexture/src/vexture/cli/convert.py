@@ -299,7 +299,7 @@ def _convert_one(
     from vexture.base.notes import check_losses, line_of
     from vexture.conversion.parameters import READING, Parameters
     from vexture.conversion.pipeline import parts_of, run, run_encoding
-    from vexture.conversion.reading import read_drawing, traced_if_outlined
+    from vexture.conversion.reading import read_drawing
 
     if quiet:  # kernels log that they are being compiled
         logging.getLogger("vexture").setLevel(logging.ERROR)
@@ -315,10 +315,9 @@ def _convert_one(
         given: Drawing | Path = source
         if content is not None:
             parameters = dict(parameters)
-            reading = {name: parameters.pop(name) for name in READING if name in parameters}
-            if encoding != DEFAULT or parameters.get("split", "") is None:
-                reading = traced_if_outlined(content, reading)
-            given = read_drawing(content, name=shown_name(source), **reading)
+            reading: dict[str, Any] = {name: parameters.pop(name) for name in READING if name in parameters}
+            outlines = encoding != DEFAULT or parameters.get("split", "") is None
+            given = read_drawing(content, name=shown_name(source), for_outlines=outlines, **reading)
         if encoding == DEFAULT:
             done: Conversion[Any] = run(given, Parameters.from_mapping(parameters))
         else:

@@ -41,7 +41,7 @@ def fold(
 
         from vexture.base.apart import apart
         from vexture.base.layout import PACKED_SUFFIX
-        from vexture.conversion.reading import read_drawing, traced_if_outlined
+        from vexture.conversion.reading import read_drawing
         from vexture.fold.layout import FOLD_SUFFIX
         from vexture.fold.shore import fold_of_shore
         from vexture.texture.files import file_name, write_together
@@ -50,8 +50,7 @@ def fold(
             raise ParameterError(f"`picture` {picture}: pictures are PNG files; name one that ends in .png")
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
-        reading = traced_if_outlined(drawing, {"fonts": fonts or ()})
-        shape = apart(partial(read_drawing, **reading), drawing, name=str(drawing))
+        shape = apart(partial(read_drawing, fonts=fonts or (), for_outlines=True), drawing, name=str(drawing))
         result = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
         say_notes(drawing, (*shape.notes, *result.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output

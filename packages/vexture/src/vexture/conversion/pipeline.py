@@ -61,13 +61,13 @@ def run_encoding(
     **parameters: Any,
 ) -> Conversion[EncodedTexture]:
     """Convert to a registered encoding as `run` does; `parameters` are those of the encoding's `convert`."""
-    from vexture.conversion.reading import drawing_of, traced_if_outlined
+    from vexture.conversion.reading import drawing_of
 
     start, other = CLOCK.seconds(), find_encoding(encoding)
     refuse_unknown(parameters, inspect.signature(other.convert).parameters, encoding)
     with within(max_seconds):
-        reading = traced_if_outlined(source, {} if select is None else {"select": select})
-        drawing = drawing_of(source, reading).without_masks()
+        reading = {} if select is None else {"select": select}
+        drawing = drawing_of(source, reading, for_outlines=True).without_masks()
         tree, texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
 
@@ -85,14 +85,15 @@ def parts_of(source: "Source | bytes", parameters: Parameters, name: str | None 
     plain = replace(parameters, select=None, names=None, snap=None, fonts=None, images="draw", page_colors=None)
     with within(parameters.max_seconds):
         start = CLOCK.seconds()
-        for label, drawing in read_drawings(source, name=name, **parameters.reading):
+        outlines = parameters.split is None
+        for label, drawing in read_drawings(source, name=name, for_outlines=outlines, **parameters.reading):
             yield replace(trees_of(drawing, plain), source=label, seconds=CLOCK.seconds() - start)
             start = CLOCK.seconds()
 
 
 def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     """Read one source, split it according to the parameters, and build its trees."""
-    from vexture.conversion.reading import drawing_of, traced_if_outlined
+    from vexture.conversion.reading import drawing_of
     from vexture.texture.root import Root
     from vexture.tree.bounds import TreeParameters, largest_shift
     from vexture.tree.build import build_tree
@@ -104,8 +105,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     if tolerance == "auto":
         tolerance = UNSEEN if parameters.precision is None else 0.0
     with within(parameters.max_seconds):
-        reading = parameters.reading
-        drawing = drawing_of(source, reading if parameters.split else traced_if_outlined(source, reading))
+        drawing = drawing_of(source, parameters.reading, for_outlines=parameters.split is None)
         split = parameters.split_of(drawing)
         shown = restylable(drawing) if parameters.restyle else drawing if split else drawing.without_masks()
         bounds = parameters.bounds | TreeParameters(tolerance=tolerance)

@@ -3,7 +3,6 @@
 import io
 import os
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, TypeAlias
 
@@ -132,8 +131,9 @@ def read_drawing(
     fonts: Sequence[Place] = (),
     images: ImageTreatment = "draw",
     page_colors: Mapping[str, str] | None = None,
+    for_outlines: bool = False,
 ) -> "Drawing":
-    """Read a drawing as `read` does, but without a warning."""
+    """Read a drawing as `read` does, but without a warning; for its outlines only, trace a picture, which has none."""
     source, label = _check_source(source), name_of(source, name)
     check_images(images)
     with about(label):
@@ -147,7 +147,7 @@ def read_drawing(
             kind = known_kind(start_of(given) or read_bytes(given), label)
         check_reading(kind, select, names, snap, fonts, page_colors, images)
         if kind is FileKind.PICTURE:
-            return _read_picture(given, label, images)
+            return _read_picture(given, label, "trace" if for_outlines else images)
         if kind is not FileKind.SVG:
             return _read_other(kind, given, label, names, snap)
         content = read_bytes(given)
@@ -168,8 +168,8 @@ def images_of(folder: Path | None, images: ImageTreatment) -> "Images":
     return Images(embedded_image, folder)
 
 
-def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
-    """Return a source that is a drawing, or read the drawing with the parameters of its reader."""
+def drawing_of(source: "Drawing | Place", reading: dict[str, Any], *, for_outlines: bool = False) -> "Drawing":
+    """Return a source that is a drawing, or read the drawing with the parameters of its reader, as `read_drawing`."""
     from vexture.drawing.drawing import Drawing
 
     if not isinstance(source, Drawing):
@@ -178,7 +178,7 @@ def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
             raise TypeError(
                 f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
             )
-        return read_drawing(source, **reading)
+        return read_drawing(source, for_outlines=for_outlines, **reading)
     for name, value in reading.items():
         raise ParameterError(
             f"`{name}` is {value!r}, but {source.name} is a drawing, which is read already; "
@@ -232,16 +232,6 @@ def _read_picture(source: Place | bytes, label: str, images: ImageTreatment) -> 
     from vexture.tracing.whole import picture_drawing
 
     return picture_drawing(source, name)
-
-
-def traced_if_outlined(source: Any, reading: dict[str, Any]) -> dict[str, Any]:
-    """Return the parameters of a reader for outlines rather than colours: a picture, which has none, is traced."""
-    if isinstance(source, str | bytes | os.PathLike) and "images" not in reading:
-        with suppress(SourceError):  # which the reader raises
-            given = unpack_source(source)
-            if kind_of(start_of(given)) is FileKind.PICTURE:
-                return {**reading, "images": "trace"}
-    return reading
 
 
 def _is_drawing(source: Place | bytes) -> bool:

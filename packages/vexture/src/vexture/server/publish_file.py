@@ -57,7 +57,7 @@ def shape_of(
     >>> shape.facts["segments"], shape.facts["box"]
     (4, [0.0, 0.0, 1.0, 1.0])
     """
-    from vexture.conversion.reading import images_of, read_drawing, traced_if_outlined
+    from vexture.conversion.reading import images_of, read_drawing
     from vexture.svg.read import framed_drawing
 
     with about(file_name):
@@ -76,9 +76,7 @@ def shape_of(
         drawing, framed = framed_drawing(plain, file_name, parameters.select, **given)
     else:
         reading: dict[str, Any] = {"select": parameters.select, "images": parameters.images}
-        if parameters.split is None and parameters.images == "draw":
-            reading = traced_if_outlined(plain, {"select": parameters.select})
-        drawing = read_drawing(plain, name=file_name, **reading)
+        drawing = read_drawing(plain, name=file_name, for_outlines=parameters.split is None, **reading)
     named = replace(drawing, name=name)
     shape = shape_of_drawing(named, file_name, parameters, start)
     if parameters.precision is not None:

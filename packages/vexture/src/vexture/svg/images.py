@@ -220,7 +220,8 @@ def paint_image(scene: ImageScene, element: etree._Element, place: ElementPlace,
     if min(*sides[2:], width, height) < THINNEST:
         return
     content = Identity.translate(*sides[:2]).transform(scene.fit(element, (0.0, 0.0, width, height), *sides[2:]))
-    visible = None if place.style["overflow"].lower() in ("visible", "auto") else sides
+    is_cut = place.style["overflow"].lower() not in ("visible", "auto") or not isinstance(found, etree._Element)
+    visible = sides if is_cut else None  # browsers show nothing of a picture beyond its sides
     inner = ContentWindow(visible, content, (width, height)).within(place)
     if isinstance(found, Drawing):
         paint_traced(scene, element, found, inner, painter)

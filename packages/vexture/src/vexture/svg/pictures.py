@@ -49,26 +49,26 @@ class EmbeddedPicture:
         return replace(self.paint, picture=replace(picture, sampling=Sampling.PIXELS))
 
 
-def fit_into_budget(paths: Sequence[Path], shown: Sequence[EmbeddedPicture], report: Report) -> tuple[Path, ...]:
+def fit_into_budget(paths: Sequence[Path], embedded: Sequence[EmbeddedPicture], report: Report) -> tuple[Path, ...]:
     """Halve the largest pictures of a drawing until all fit, and note all that are smaller than in their files.
 
-    `shown` are the pictures of the drawing; some may not be visible.
+    `embedded` are the pictures of the drawing; some may not be visible.
     """
     visible = {id(path.paint.picture.pixels) for path in paths if path.paint.picture is not None}
     fitted, reductions = fit_pictures(paths, MOST_TEXELS)
     reduced: dict[int, NDArray[np.uint8]] = {id(each.original): each.reduced for each in reductions}
-    for embedded in shown:
-        assert embedded.paint.picture is not None
-        pixels = embedded.paint.picture.pixels
+    for picture in embedded:
+        assert picture.paint.picture is not None
+        pixels = picture.paint.picture.pixels
         if id(pixels) in visible:
-            note_size(embedded, reduced.get(id(pixels), pixels), report)
+            note_size(picture, reduced.get(id(pixels), pixels), report)
     return fitted
 
 
-def note_size(embedded: EmbeddedPicture, pixels: NDArray[np.uint8], report: Report) -> None:
+def note_size(picture: EmbeddedPicture, pixels: NDArray[np.uint8], report: Report) -> None:
     """Note the size of a picture if it is smaller than in the file."""
     rows, columns = pixels.shape[:2]
-    if (columns, rows) != embedded.size:
-        size = "{:,} x {:,}".format(*embedded.size)
+    if (columns, rows) != picture.size:
+        size = "{:,} x {:,}".format(*picture.size)
         limit = f"pictures of a drawing take at most {MOST_TEXELS:,} texels"
-        report.simplification(f"{embedded.label}: {columns:,} x {rows:,} of its {size} pixels ({limit})")
+        report.simplification(f"{picture.label}: {columns:,} x {rows:,} of its {size} pixels ({limit})")
