@@ -81,7 +81,8 @@ def test_a_picture_in_one_pixel_is_its_mean() -> None:
         found = found_mean("13x6", (6.5, 3.0), (size[0], 0.0), (0.0, size[1]), is_smooth=True)
         if size == (13.0, 6.0):
             np.testing.assert_allclose(found, pixels.mean(axis=(0, 1)), atol=1e-6)
-        assert (found >= 0.0).all() and (found <= 255.0).all()
+        assert (found >= 0.0).all()
+        assert (found <= 255.0).all()
 
 
 def test_a_region_of_no_area_has_the_colours_along_it() -> None:

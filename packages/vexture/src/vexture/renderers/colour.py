@@ -58,8 +58,8 @@ from vexture.renderers.paints import (
     with_color,
 )
 from vexture.renderers.piece import VextureBox, VextureFrame, box, ends, frame, in_box, piece, view_pixel, word
-from vexture.renderers.vectors import Vec4, times
 from vexture.renderers.uniforms import HasTexels, uniforms_of
+from vexture.renderers.vectors import Vec4, times
 from vexture.renderers.view import Size, ViewLike
 
 
