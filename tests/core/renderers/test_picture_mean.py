@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 from picture_texels import noise, operation_of, texels_of_pixels, true_mean
+from vexture.base.layout import KIND_KEEP, KIND_LINEAR, KIND_MIX, KIND_SHIFT, MASKS, PAINT_ONE, STOP_BITS
+from vexture.drawing.group import Mask
 from vexture.drawing.picture import Picture, Sampling
 from vexture.renderers.gradient import VextureRegion, program
 from vexture.renderers.pixels import VextureLevel, picture_mean
@@ -106,6 +108,37 @@ def test_a_program_paints_the_colour_of_the_picture_at_a_point(sampling: Samplin
         region = VextureRegion((x, y), (1e-6, 0.0), (0.0, 1e-6))
         found = np.array(program(texels, 0, 3, region, 1.0)) / 65535.0
         assert np.abs(found - drawn.color_at(x, y)).max() < UPRIGHT / 255
+
+
+def masked_program(to_pixels, pixels):
+    """Texels of a program, a picture that a linear gradient masks, and the number of those of the program."""
+    words = np.zeros((6, 4), np.uint32)
+    words[:3] = operation_of(to_pixels, pixels, 8, is_smooth=True)
+    words[3, 3] = KIND_KEEP << KIND_SHIFT
+    words[4, :3] = np.array([3.0, 1.0, -1.0], np.float32).view(np.uint32)
+    words[4, 3] = KIND_LINEAR << KIND_SHIFT | 2 << STOP_BITS | 2
+    words[5] = PAINT_ONE, MASKS + int(Mask.OPACITY), 0, KIND_MIX << KIND_SHIFT
+    stops = np.zeros((2, 4), np.uint32)
+    stops[:, 0] = np.array([0.0, 1.0], np.float32).view(np.uint32)
+    stops[1, 2] = PAINT_ONE << 16
+    return texel_rows(np.concatenate([words, stops, texels_of_pixels(pixels)])), len(words)
+
+
+@pytest.mark.parametrize(("size", "most"), [(4.0, 1.0), (14.0, 2.0), (40.0, 2.5)])
+def test_a_product_of_a_picture_and_a_mask_is_averaged(size: float, most: float) -> None:
+    pixels, _ = picture("photograph")
+    texels, count = masked_program(((512.0, 0.0, 0.0), (0.0, -512.0, 512.0)), pixels)
+    side, points = size / 512, (np.arange(48) + 0.5) / 48 - 0.5
+    for x, y in np.random.default_rng(1).uniform(0.2, 0.8, (12, 2)).tolist():
+        region = VextureRegion((x, y), (side, 0.0), (0.0, side))
+        found = program(texels, 0, count, region, 1.0)
+        small = side / len(points)
+        parts = [
+            program(texels, 0, count, VextureRegion((x + a * side, y + b * side), (small, 0.0), (0.0, small)), 1.0)
+            for a in points
+            for b in points
+        ]
+        assert np.abs(np.subtract(found, np.mean(parts, axis=0))).max() / 257 < most
 
 
 @pytest.mark.parametrize("seed", range(4))

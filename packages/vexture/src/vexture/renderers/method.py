@@ -103,7 +103,7 @@ PICTURE_RAMP: Final = 0.25
 """Share of a ramp that a pixel of a picture counts as, where a product of a picture and another paint is averaged."""
 
 PICTURE_AREA: Final = 256.0
-"""Most pixels of a picture's level in a footprint. A coarser level has at least a quarter of them, and is exact to 2/255."""
+"""Most pixels of a level in a footprint; coarser levels have at least a quarter of them, for errors of 2/255."""
 
 PICTURE_LENGTH: Final = 2.0**-4
 """Least area that determines the level, relative to the square of a footprint's length: 64 pixels are the longest."""
