@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from vexture.base.errors import SourceError
 from vexture.base.kernels import kernel
+from vexture.base.layout import MOST_PICTURE_SIDE
 from vexture.drawing.paint import Gradient, Spread, Stop
-from vexture.drawing.picture import MOST_SIDE, Picture, Sampling
+from vexture.drawing.picture import Picture, Sampling
 from vexture.drawing.unit_square import FARTHEST
 from vexture.tree.planar.pixels import IS_OPAQUE, SIDE_BITS, SIZE, list_pixels, mean_of_picture, pixels_at
 
@@ -39,7 +40,7 @@ PICTURE = -2.0
 OFFSET = 4
 """Column of a stop; the others are its colour and opacity."""
 
-MOST_NUMBER: Final = MOST_SIDE * FARTHEST
+MOST_NUMBER: Final = MOST_PICTURE_SIDE * FARTHEST
 """Largest number of a map to pixels: shaders compute with 32-bit floats."""
 
 Shade: TypeAlias = Gradient | Picture
