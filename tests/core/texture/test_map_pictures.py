@@ -239,3 +239,15 @@ def test_a_picture_that_is_too_small_is_refused() -> None:
     picture = Picture(((1e30, 0, 0), (0, 1, 0)), random_pixels(np.random.default_rng(1), 2, 2))
     with pytest.raises(SourceError, match=r"has the number 1e\+30; the limit is 1\.64e\+13; make the picture larger"):
         vexture.convert(Drawing((pictured_path(SQUARE, picture),)))
+
+
+@pytest.mark.parametrize("sampling", Sampling)
+def test_a_texture_contains_what_its_pictures_paint(sampling: Sampling) -> None:
+    rng = np.random.default_rng(7)
+    pixels = random_pixels(rng, 12, 12)
+    pixels[rng.random((12, 12)) < 0.7] = 0
+    picture = fitted(pixels, sampling)
+    texture, points = vexture.convert(Drawing((pictured_path(SQUARE, picture),))), rng.random((200, 2))
+    wanted = [picture.color_at(*point)[3] > 0.0 for point in points.tolist()]
+    assert 20 < sum(wanted) < 180
+    assert texture.contains(points).tolist() == wanted

@@ -114,7 +114,7 @@ def test_means_of_pictures_are_those_of_many_points(name: str) -> None:
     np.testing.assert_allclose(planar.mean[0].reshape(2, 2, 4)[::-1], wanted, atol=2 / 255)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=6, deadline=None)
 @given(st.integers(0, 2**32 - 1))
 def test_means_of_random_pictures_are_those_of_many_points(seed: int) -> None:
     rng = np.random.default_rng(seed)

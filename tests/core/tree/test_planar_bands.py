@@ -24,7 +24,7 @@ class Bands(NamedTuple):
 
 def bands_of(gradient: Gradient, box: np.ndarray, at_all_stops: bool = False) -> Bands:
     """Bands of one gradient, as objects."""
-    (row,), stops = shades_of([gradient])
+    (row,), stops, _ = shades_of([gradient])
     found = add_bands(new_bands(4), row, stops, box, int(at_all_stops))
     shades = Shades(found.rows, found.stops, np.zeros(0, np.uint32))
     gradients = [shade_of(shades, number) for number in found.bands[: found.counts[BANDS]].tolist()]
@@ -130,7 +130,7 @@ def test_equal_gradients_are_one_and_many_find_their_way() -> None:
     ]
     found = new_bands(4)
     for ramp in 2 * ramps:
-        (row,), stops = shades_of([ramp])
+        (row,), stops, _ = shades_of([ramp])
         found = add_bands(found, row, stops, WHOLE, 0)
     assert found.counts.tolist() == [99, 198, 198, 0, 0]
     assert found.bands[:198].tolist() == 2 * [*range(99)]
