@@ -141,12 +141,12 @@ def test_borders_continue(sampling: Sampling) -> None:
 
 
 def test_a_flat_slope_meets_every_column() -> None:
-    """An edge that crosses all columns of the image, and all 512 of the picture, in one row of pixels."""
-    picture = Picture(((512.0, 0.0, 0.0), (0.0, 512.0, 0.0)), noise(512, 1), Sampling.PIXELS)
+    """An edge that crosses all columns of the image, and more of the picture than can be cut, in one row of pixels."""
+    picture = Picture(((1600.0, 0.0, 0.0), (0.0, 1.0, 0.0)), noise(1600, 1), Sampling.PIXELS)
     corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1 / 16)]
     row = render_exact_colours(Drawing((painted(picture, corners),)), 16)[15]
-    heights = 1.0 - (np.arange(512) + 0.5) / 512
-    expected = (picture.pixels[0] * LEVEL * heights[:, None]).reshape(16, 32, 4).mean(axis=1)
+    heights = 1.0 - (np.arange(1600) + 0.5) / 1600
+    expected = (picture.pixels[0] * LEVEL * heights[:, None]).reshape(16, 100, 4).mean(axis=1)
     assert worst(row, expected) < 0.001
 
 
