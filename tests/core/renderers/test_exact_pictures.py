@@ -141,12 +141,12 @@ def test_borders_continue(sampling: Sampling) -> None:
 
 
 def test_a_flat_slope_meets_every_column() -> None:
-    """An edge that crosses all columns of the image, and all 512 of the picture, in one row of pixels."""
-    picture = Picture(((512.0, 0.0, 0.0), (0.0, 512.0, 0.0)), noise(512, 1), Sampling.PIXELS)
+    """An edge that crosses all columns of the image, and more of the picture than can be cut, in one row of pixels."""
+    picture = Picture(((1600.0, 0.0, 0.0), (0.0, 1.0, 0.0)), noise(1600, 1), Sampling.PIXELS)
     corners = [(0.0, 0.0), (1.0, 0.0), (0.0, 1 / 16)]
     row = render_exact_colours(Drawing((painted(picture, corners),)), 16)[15]
-    heights = 1.0 - (np.arange(512) + 0.5) / 512
-    expected = (picture.pixels[0] * LEVEL * heights[:, None]).reshape(16, 32, 4).mean(axis=1)
+    heights = 1.0 - (np.arange(1600) + 0.5) / 1600
+    expected = (picture.pixels[0] * LEVEL * heights[:, None]).reshape(16, 100, 4).mean(axis=1)
     assert worst(row, expected) < 0.001
 
 
@@ -164,16 +164,24 @@ def test_more_columns_in_a_pixel_than_can_be_cut_are_refused() -> None:
 def test_turned_pictures_by_very_many_points(sampling: Sampling) -> None:
     picture = Picture(TURNED, noise(6, 5), sampling)
     image = render_exact_colours(Drawing((painted(picture),)), 4)
-    assert worst(image, many_points(picture, square_view(4), 4, 400)) < 0.25
+    assert worst(image, many_points(picture, square_view(4), 4, 300)) < 0.3
 
 
 @pytest.mark.parametrize("sampling", Sampling)
 def test_very_many_turned_pixels_in_one(sampling: Sampling) -> None:
     """More corners in a pixel than it is cut at."""
-    turned = ((90.0, 50.0, -10.0), (40.0, -90.0, 70.0))
-    picture = Picture(turned, noise(100, 100), sampling)
-    image = render_exact_colours(Drawing((painted(picture),)), 2)
-    assert worst(image, many_points(picture, square_view(2), 2, 1000)) < 0.2
+    turned = ((45.0, 25.0, -5.0), (20.0, -45.0, 35.0))
+    picture = Picture(turned, noise(50, 50), sampling)
+    image = render_exact_colours(Drawing((painted(picture),)), 1)
+    assert worst(image, many_points(picture, square_view(1), 1, 1000)) < 0.2
+
+
+@pytest.mark.parametrize("angle", [1e-6, 1e-15])
+def test_very_many_pixels_that_are_hardly_turned(angle: float) -> None:
+    """Rows that cross a pixel of the image within much less than its cuts."""
+    straight = Picture(upright(120, 120), noise(120, 120), Sampling.PIXELS)
+    turned = replace(straight, to_pixels=((120.0, 120.0 * angle, 0.0), (120.0 * angle, -120.0, 120.0)))
+    assert worst(render_exact_colours(Drawing((painted(turned),)), 2), means(straight, 2)) < 0.02
 
 
 def test_pictures_in_perspective() -> None:
@@ -183,7 +191,7 @@ def test_pictures_in_perspective() -> None:
     corners = [(0, 0), (4, 0), (4, 4), (0, 4)]
     inside = [matrix @ (*corner, 1.0) for corner in corners]
     assert all(0 < p[0] / p[2] < 1 and 0 < p[1] / p[2] < 1 for p in inside)
-    assert worst(image, many_points(picture, matrix, 4, 400)) < 0.25
+    assert worst(image, many_points(picture, matrix, 4, 300)) < 0.3
 
 
 def test_a_view_turns_a_picture() -> None:

@@ -16,6 +16,7 @@ from svg_reference import render_file
 
 import vexture
 from vexture.base.errors import SourceWarning
+from vexture.base.pixels import ORIENTATION
 from vexture.cli.main import main
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.picture import Sampling
@@ -128,6 +129,18 @@ def test_what_a_file_says_and_is_not_drawn_is_named() -> None:
     drawing = read(SVG.format(f'<image href="{link_of(moving)}" width="9" height="6"/>'))
     assert notes(drawing) == ["an embedded GIF of 4 x 4 (only the first image of the animation is drawn)"]
     assert len(drawing.paths) == 1
+
+
+def test_an_orientation_that_is_not_wanted_is_named() -> None:
+    exif = Image.Exif()
+    exif[ORIENTATION] = 6
+    link = link_of(file_of(blocks(), exif=exif))
+    turned = read(SVG.format(f'<image href="{link}" width="60"/>'))
+    assert turned.paths[0].box.ravel() == pytest.approx([0.0, 0.1, 0.6, 1.0])
+    assert notes(turned) == []
+    drawing = read(SVG.format(f'<image href="{link}" width="60" style="image-orientation: none"/>'))
+    expected = "an embedded PNG of 3 x 2 (it is turned upright, although image-orientation is none)"
+    assert notes(drawing) == [expected]
 
 
 def test_a_picture_that_breaks_off_is_left_out() -> None:

@@ -24,6 +24,9 @@ TEXTURE: Final = (
     "is an image of a texture of the encoding thesis, not a picture; convert the drawing that it was made from"
 )
 
+ANIMATED: Final = frozenset({"GIF", "PNG", "WEBP"})
+"""Formats whose further images are an animation; in a JPEG they are a thumbnail, a map of depths or the like."""
+
 ORIENTATION: Final = 0x0112
 """EXIF tag of the orientation."""
 
@@ -48,6 +51,7 @@ class DecodedPicture(NamedTuple):
 
     pixels: NDArray[np.uint8]  # (height, width, 4): sRGB and opacity, not premultiplied
     remarks: tuple[str, ...] = ()
+    is_turned: bool = False  # True if the orientation in the file changed it
 
 
 def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
@@ -98,7 +102,7 @@ def _decode(picture: "Image.Image", content: bytes) -> DecodedPicture:
     """Decode an open picture whose size has been checked."""
     from PIL import Image
 
-    is_animated = bool(getattr(picture, "is_animated", False))
+    is_animated = picture.format in ANIMATED and bool(getattr(picture, "is_animated", False))
     picture.seek(0)
     picture.load()
     turns = {
@@ -125,7 +129,7 @@ def _decode(picture: "Image.Image", content: bytes) -> DecodedPicture:
         else:
             plain = converted
     whole = plain.convert("RGBA") if turn is None else plain.convert("RGBA").transpose(turn)
-    return DecodedPicture(np.asarray(whole, np.uint8), tuple(remarks))
+    return DecodedPicture(np.asarray(whole, np.uint8), tuple(remarks), turn is not None)
 
 
 def _plain(picture: "Image.Image", depth: int) -> "Image.Image":

@@ -175,7 +175,7 @@ def render_exact_colours(
     random drawings with all blend modes and up to ten periods of a gradient in a pixel. More than 64 periods in a
     pixel, or 1,024 corners of ramps on a line in one, are not resolved. Integrals over pictures are exact, up to
     0.01/255 where more than 512 corners of a picture's pixels lie in one pixel of the image, not parallel to it; a
-    `LimitError` is raised if more than 1,024 of its columns and rows meet a line in one.
+    `LimitError` is raised if more than 1,024 of its columns and rows meet a line in one, or 500 its borders.
     """
     width, height = size_of(size)
     image = np.zeros((height, width, 4), np.float32)

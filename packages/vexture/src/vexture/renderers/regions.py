@@ -108,9 +108,7 @@ def cut_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[
 def cut_picture(cell: SlabCell, stack: PathStack, k: int, cuts: NDArray[np.float64], count: int) -> int:
     """Cut a cell at the seams of a picture, where they meet its edges, in the column, or one another."""
     column, beyond = float(cell.column), cell.column + 1.0
-    count, is_done = cut_corners(stack.samples, k, (column, cell.top), (beyond, cell.bottom), cuts, count)
-    if is_done:
-        return count
+    count = cut_corners(stack.samples, k, (column, cell.top), (beyond, cell.bottom), cuts, count)
     height = cell.bottom - cell.top
     for high, low in (cell.left, cell.right, (column, column), (beyond, beyond)):
         start, end = 0.0, 1.0

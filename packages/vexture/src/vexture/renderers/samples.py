@@ -18,6 +18,10 @@ MOST_CORNERS: Final = 512
 """Most crossings of seams at which a cell is cut; a cell with more is cut into as many equal parts."""
 
 
+PARALLEL: Final = 1e-12
+"""Sine of the largest angle between lines that count as parallel."""
+
+
 class Samples(NamedTuple):
     """The pictures of a drawing's paints."""
 
@@ -117,12 +121,10 @@ def cut_seams(
 
 
 @kernel(allocates=False)
-def cut_corners(
-    samples: Samples, k: int, low: Place, high: Place, cuts: NDArray[np.float64], count: int
-) -> tuple[int, bool]:
+def cut_corners(samples: Samples, k: int, low: Place, high: Place, cuts: NDArray[np.float64], count: int) -> int:
     """Cut the height of a box, from its corner `low` to `high`, where seams cross in it; return the new count.
 
-    Also return whether lines in the box need no other cuts: if there are very many crossings, the parts are equal ones.
+    With very many crossings, the parts are equal ones. A picture that is parallel to the image needs no such cuts.
     """
     m = samples.maps[k]
     across, down = (np.inf, -np.inf), (np.inf, -np.inf)
@@ -134,20 +136,27 @@ def cut_corners(
     i, i_last = seams_between(samples, k, 0, across[0], across[1])
     j, j_last = seams_between(samples, k, 1, down[0], down[1])
     corners = max(i_last - i + 1, 0) * max(j_last - j + 1, 0)
-    upright = (m[0, 1] == 0.0 and m[1, 0] == 0.0) or (m[0, 0] == 0.0 and m[1, 1] == 0.0)
-    if corners == 0 or (upright and m[2, 0] == 0.0 and m[2, 1] == 0.0):
-        return count, False
+    if corners == 0 or is_parallel(m):
+        return count
     if corners > MOST_CORNERS:
         for part in range(1, MOST_CORNERS):
             count = add_cut(part / MOST_CORNERS, cuts, count)
-        return count, True
+        return count
     shift = 0.5 if samples.linear[k] else 1.0
     for column in range(i, i_last + 1):
         for row in range(j, j_last + 1):
             X, Y, W = corner_of(samples.inverses[k], column + shift, row + shift)
             if low[0] < X / W < high[0]:
                 count = add_cut((Y / W - low[1]) / (high[1] - low[1]), cuts, count)
-    return count, False
+    return count
+
+
+@kernel(allocates=False)
+def is_parallel(m: NDArray[np.float64]) -> bool:
+    """Return whether a map takes rows and columns of the image to rows or columns, up to rounding."""
+    straight, crossed = abs(m[0, 0]) + abs(m[1, 1]), abs(m[0, 1]) + abs(m[1, 0])
+    affine = m[2, 0] == 0.0 and m[2, 1] == 0.0
+    return bool(affine and min(straight, crossed) <= PARALLEL * max(straight, crossed))
 
 
 @kernel(allocates=False)

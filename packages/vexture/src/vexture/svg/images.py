@@ -241,6 +241,10 @@ def paint_picture(
     painter.add([line_cubics(corners, np.roll(corners, -1, axis=0))], place, FillRule.NONZERO, paint, place.name)
     for remark in found.remarks:
         scene.report.simplification(f"{found.label} ({remark})", element)
+    if found.is_turned and place.style["image-orientation"].lower() == "none":
+        scene.report.simplification(
+            f"{found.label} (it is turned upright, although image-orientation is none)", element
+        )
     assert found.paint.picture is not None
     scene.images.shown[id(found.paint.picture.pixels)] = found
 

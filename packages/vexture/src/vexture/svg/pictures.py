@@ -29,6 +29,7 @@ class EmbeddedPicture:
     size: tuple[float, float]  # columns and rows of the file
     paint: Paint  # in units of the file's pixels, y down
     remarks: tuple[str, ...] = ()
+    is_turned: bool = False  # True if the orientation in the file changed it
 
     @classmethod
     def from_content(cls, content: bytes, label: str) -> "EmbeddedPicture":
@@ -39,7 +40,7 @@ class EmbeddedPicture:
         part = 0.5**times
         pixels = halve(premultiply(decoded.pixels), times)
         paint = Paint.from_picture(Picture(((part, 0.0, 0.0), (0.0, part, 0.0)), pixels))
-        return cls(label, (columns, rows), paint, decoded.remarks)
+        return cls(label, (columns, rows), paint, decoded.remarks, decoded.is_turned)
 
     def paint_with(self, rendering: str) -> Paint:
         """Return the paint for a value of `image-rendering`."""

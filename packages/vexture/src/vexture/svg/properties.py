@@ -173,6 +173,7 @@ PROPERTIES: dict[str, Property] = {
     "filter": Property("none", False, anything),
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
     "inline-size": Property("auto", False, anything),
+    "image-orientation": Property("from-image", True, anything),
     "image-rendering": Property("auto", True, one_of(*RENDERINGS)),
     "isolation": Property("auto", False, one_of("auto", "isolate")),
     "mask": Property("none", False, anything),
@@ -235,6 +236,7 @@ CSS_ONLY = frozenset(
         ),
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
         *(
+            "image-orientation",
             "isolation",
             "mask-mode",
             "mix-blend-mode",
