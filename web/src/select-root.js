@@ -134,10 +134,8 @@ export function mapsAmong(shown, isAlone) {
  * @param {Pick<import('./data.js').Root, 'hasGradients' | 'hasPictures'>[]} shown
  * @returns {0 | 1 | 2}
  */
-export function gradientsAmong(shown) {
-  if (shown.some(({ hasPictures }) => hasPictures)) return 2;
-  return shown.some(({ hasGradients }) => hasGradients) ? 1 : 0;
-}
+export const gradientsAmong = (shown) =>
+  shown.some(({ hasPictures }) => hasPictures) ? 2 : shown.some(({ hasGradients }) => hasGradients) ? 1 : 0;
 
 /**
  * Which of the shapes of a mesh of glyphs are planar maps: it shows either glyphs in one colour, or those in their own.
