@@ -130,8 +130,11 @@ def colours_at(drawing: Drawing, points, chords: int = 256) -> tuple[NDArray[np.
             path, w = drawing.paths[k], windings[k]
             inside = w & 1 != 0 if path.fill_rule == FillRule.EVENODD else w != 0
             flat = [*(c * path.paint.opacity for c in path.paint.color), path.paint.opacity]
-            gradient = path.paint.gradient
-            colour = np.array(flat) if gradient is None else gradient_colours(gradient, points)
+            gradient, picture, colour = path.paint.gradient, path.paint.picture, np.array(flat)
+            if gradient is not None:
+                colour = gradient_colours(gradient, points)
+            elif picture is not None:
+                colour = np.array([picture.color_at(*point) for point in np.asarray(points).tolist()])
             below, k = over(below, inside[:, None] * colour, Blend.NORMAL, 1.0), k + 1
         return below * left * (missing == 0), k
 

@@ -22,6 +22,7 @@ from vexture.svg.animations import ANIMATIONS
 from vexture.svg.document import LANGUAGE, MOST_ATTRIBUTES
 from vexture.svg.filters import STEP
 from vexture.svg.painter import MOST_SEGMENTS
+from vexture.svg.pictures import MOST_TEXELS
 from vexture.svg.properties import BLENDS
 from vexture.svg.space import MOST_MASKS
 from vexture.svg.strokes import MOST_DASHES
@@ -218,6 +219,7 @@ def reader_module() -> str:
         "MOST_ATTRIBUTES": MOST_ATTRIBUTES,
         "MOST_DASHES": MOST_DASHES,
         "MOST_MASKS": MOST_MASKS,
+        "MOST_PICTURE_TEXELS": MOST_TEXELS,
         "MOST_SEGMENTS": MOST_SEGMENTS,
         "MOST_STOPS": paint_servers.MOST_STOPS,
         "MOST_TILED": pattern_tiles.MOST,

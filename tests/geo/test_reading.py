@@ -2,6 +2,7 @@
 
 import warnings
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from io import BytesIO, StringIO
 from pathlib import Path
 from typing import Any
@@ -21,6 +22,7 @@ from vexture.cli.main import main
 from vexture.cli.messages import as_options
 from vexture.conversion.reading import content_of, read_drawing
 from vexture.drawing.drawing import Drawing
+from vexture.drawing.picture import Picture
 
 NOTED = {
     "packed.svgz": (Note("left out", "<foreignObject>", 1, (Subject("<foreignObject> in line 1", None),)),),
@@ -51,10 +53,19 @@ def assert_same(one: Drawing, other: Drawing) -> None:
     np.testing.assert_array_equal(one.to_source, other.to_source)
     assert len(one.paths) == len(other.paths)
     for path, twin in zip(one.paths, other.paths, strict=True):
-        assert (path.paint, path.fill_rule) == (twin.paint, twin.fill_rule)
+        assert path.fill_rule == twin.fill_rule
+        assert replace(path.paint, picture=None) == replace(twin.paint, picture=None)
+        assert_same_pixels(path.paint.picture, twin.paint.picture)
         assert len(path.contours) == len(twin.contours)
         for contour, again in zip(path.contours, twin.contours, strict=True):
             np.testing.assert_array_equal(contour, again)
+
+
+def assert_same_pixels(one: Picture | None, other: Picture | None) -> None:
+    assert (one is None) == (other is None)
+    if one is not None and other is not None:
+        assert (one.to_pixels, one.sampling, one.opacity) == (other.to_pixels, other.sampling, other.opacity)
+        np.testing.assert_array_equal(one.pixels, other.pixels)
 
 
 def test_path_bytes_and_open_file_give_one_drawing(files: list[Path]) -> None:
@@ -203,7 +214,7 @@ def test_a_text_in_place_of_a_path_is_refused(function: Callable[[Any], Any], te
         ({"fonts": [3]}, "`fonts` is [3]; it must be paths of font files or folders of fonts"),
         ({"fonts": [b"abc"]}, "`fonts` is [b'abc']; it must be paths of font files or folders of fonts"),
         ({"fonts": "no.ttf"}, "no.ttf: it is no file; give a font file or a folder of fonts"),
-        ({"trace_images": "yes"}, "`trace_images` is 'yes'; it must be True or False"),
+        ({"images": "yes"}, "`images` is 'yes'; it must be 'draw', 'trace', 'none'"),
         ({"select": 5}, "`select` is 5; it must be text"),
         ({"names": 5}, "`names` is 5; it must be text"),
     ],

@@ -9,7 +9,7 @@ BAD = {
     "'http://127.0.0.1:9/a.svg'": '"http://127.0.0.1:9/a.svg" cannot be loaded',
     "new Blob(['PNG'])": 'the source is a text that begins with "PNG"; give SVG, GeoJSON or TopoJSON',
     "new File([new Uint8Array([137, 80, 78, 71, 13, 10, 26, 10, 0])], 'a.png')": (
-        '"a.png" is a PNG picture; give SVG, GeoJSON or TopoJSON, or trace it with the program vexture'
+        '"a.png" is a PNG picture that is damaged; save it again'
     ),
     "new File(['Dear all'], 'a.txt')": '"a.txt" is a text that begins with "Dear all"; give SVG, GeoJSON or TopoJSON',
     "new File([new Uint8Array([255, 216, 255, 224, 0, 16, 74, 70, 73, 70, 0])], 'a')": '"a" is a JPEG picture',

@@ -11,6 +11,7 @@ export const LARGEST = 1000000000000.0;
 export const MOST_ATTRIBUTES = 1000;
 export const MOST_DASHES = 100000;
 export const MOST_MASKS = 32;
+export const MOST_PICTURE_TEXELS = 262144;
 export const MOST_SEGMENTS = 5000000;
 export const MOST_STOPS = 128;
 /** @type {Readonly<Record<string, number>>} */

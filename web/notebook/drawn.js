@@ -1,5 +1,5 @@
 /** What of a texture a stage draws, and what is at a point of it. Plain data. */
-import { mapsAmong } from '../src/select-root.js';
+import { gradientsAmong, mapsAmong } from '../src/select-root.js';
 
 /**
  * @typedef {{ first: number, count: number }} Range of roots
@@ -16,7 +16,7 @@ import { mapsAmong } from '../src/select-root.js';
  */
 export function drawnOf(texture, { first, count }, mode) {
   const layers = texture.roots.slice(first, first + count);
-  const gradients = layers.some(({ hasGradients }) => hasGradients);
+  const gradients = gradientsAmong(layers);
   const maps = mapsAmong(layers, count === 1);
   return { texture, name: layers[0].name, first, count, silhouette: mode === 'silhouette', maps, gradients };
 }

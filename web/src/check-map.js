@@ -42,7 +42,7 @@ export function checkMap(texels, met, quad) {
   const found = walked(texels, met, quad);
   if (quad < MAP_HEAD) refuse(quad, `the root of a map is quad ${quad}, which has no head before it`);
   const head = headOf(texels, quad);
-  if (head.rest || (!head.operations && (head.programs || head.stops))) {
+  if (!head.operations && (head.programs || head.stops || head.pixels)) {
     refuse(quad, `the map with root ${quad} has a head that is not 0 where it must be`);
   }
   if (head.used < 1 || head.used > MOST_PAINTS) {
@@ -163,7 +163,7 @@ function takeParts(met, { quad, used, cells, sides, paints, ...head }, { quads, 
     { what: 'cells', first: cells, count: quads + Math.ceil(quads / quadsInBlock(used)) },
     { what: 'sides', first: sides, count: Math.ceil(curves / sidesInTexel(used)) },
     { what: 'paints', first: paints, count: Math.ceil(used / 2) },
-    { what: 'programs', first: head.programs, count: head.operations + head.stops },
+    { what: 'programs', first: head.programs, count: head.operations + head.stops + head.pixels },
   ]) {
     if (count && first + count > met.length) {
       refuse(quad, `the ${what} of the map with root ${quad} end at texel ${first + count} of ${met.length}`);
@@ -205,14 +205,15 @@ function checkPaints(texels, head, { quads, curves }) {
 }
 
 /**
- * Note whether a checked map holds gradients, and check that its style fits its paints.
+ * Note whether a checked map holds gradients and pictures, and check that its style fits its paints.
  *
  * @param {import('./data.js').Root} root
  * @param {Uint32Array} texels
  */
 export function checkPaintsOf(root, texels) {
-  const { used, operations } = headOf(texels, root.quad);
+  const { used, operations, pixels } = headOf(texels, root.quad);
   root.hasGradients = operations > 0;
+  root.hasPictures = pixels > 0;
   const what = `the map ${line(root.name)} has`;
   if (root.style && root.hasGradients) throw new VextureError(`${what} a style, and paints that are programs; ${REMEDY}`, 'style');
   if (root.style && root.style.stacks.length !== used) {

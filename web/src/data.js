@@ -13,7 +13,8 @@
  * @property {string | null} crs coordinate reference system of the source's units
  * @property {RootPaint | null} paint its colour, if it is a layer of a drawing; null for a silhouette or a map
  * @property {boolean} isMap whether it is a planar map: a whole drawing in its colours
- * @property {boolean} hasGradients whether a paint of the map holds gradients
+ * @property {boolean} hasGradients whether a paint of the map is a program: it holds gradients or pictures
+ * @property {boolean} hasPictures whether one holds pictures
  * @property {import('./style.js').Style | null} style elements of a map that can be recoloured; otherwise null
  *
  * @typedef {object} TextureData Common to all encodings.

@@ -15,7 +15,7 @@ const planar = withMaps(async () => (await import('../generated/planar-shader.js
  * @property {boolean} inLayers whether the shape is the union of a drawing's layers
  * @property {'none' | 'some' | 'all'} maps which of the shapes that may be shown are planar maps; all of several only if
  *   each is shown alone
- * @property {boolean} gradients whether a map holds gradients
+ * @property {0 | 1 | 2} gradients whether maps hold gradients (1) or pictures as well (2)
  * @property {boolean} linear
  * @property {'none' | 'clamp' | 'repeat'} wrap
  * @property {boolean} flat
@@ -78,7 +78,7 @@ function reader({ other, maps, gradients, wrap, flat, fold, linear }) {
   const declared = 'uniform uint vextureRootQuad;\nuniform int vextureFirst;\nuniform int vextureCount;\n';
   const chosen = `#define VEXTURE_FLAT ${Number(flat && !fold)}\n#define VEXTURE_WRAP ${WRAPS[wrap]}\n`;
   if (maps === 'none') return `${chosen}${packed}${fold}${declared}`;
-  const colors = `#define VEXTURE_LINEAR ${Number(linear)}\n#define VEXTURE_GRADIENTS ${Number(gradients)}\n`;
+  const colors = `#define VEXTURE_LINEAR ${Number(linear)}\n#define VEXTURE_GRADIENTS ${gradients}\n`;
   return `${chosen}${colors}${packed}${planar()}${fold}${declared}`;
 }
 

@@ -2,7 +2,7 @@
 import { UV_ATTRIBUTES } from './attributes.js';
 import { FOOTPRINT } from './mask-shader.js';
 import { isOfGlyphs } from './mask-options.js';
-import { mapsAmong, mapsOfGlyphs } from './select-root.js';
+import { gradientsAmong, mapsAmong, mapsOfGlyphs } from './select-root.js';
 
 /** @typedef {import('./mask-shader.js').Variant} Variant */
 
@@ -23,7 +23,7 @@ export function variantOf(texture, options, range) {
     mode,
     inLayers: mode === 'paint',
     maps,
-    gradients: shown.some(({ hasGradients }) => hasGradients),
+    gradients: gradientsAmong(shown),
     linear: linear && mode === 'paint' && maps !== 'none' && isAlone, // layers are composited in sRGB, as in browsers
     wrap,
     flat,

@@ -4,6 +4,7 @@ import {
   MAP_VERSION,
   PACKED_FILE_LIMIT,
   PACKED_VERSION,
+  PICTURE_VERSION,
   TEXT_ENCODING,
   TEXT_NAME,
   TEXT_ROOTS,
@@ -15,7 +16,7 @@ import { REMEDY, VextureError, line } from './errors.js';
 import { readKtx2 } from './ktx2.js';
 import { checkContents } from './mistaken.js';
 import { mapParts } from './maps.js';
-import { readRoots } from './read-roots.js';
+import { readRoots, versionOf } from './read-roots.js';
 
 /**
  * Read and validate a packed texture.
@@ -33,17 +34,18 @@ export async function readPacked(file, name = 'texture') {
     }
     const { width, height, texels, texts, values } = await readKtx2(file);
     checkKnown(texts, TEXT_ENCODING, [ENCODING_PACKED]);
-    checkKnown(texts, TEXT_VERSION, [PACKED_VERSION, MAP_VERSION]);
+    checkKnown(texts, TEXT_VERSION, [PACKED_VERSION, MAP_VERSION, PICTURE_VERSION]);
     const roots = await readRoots(texts.get(TEXT_ROOTS) ?? '', values.get(TEXT_STYLES));
     const version = texts.get(TEXT_VERSION);
-    if (version !== (roots.some(({ isMap }) => isMap) ? MAP_VERSION : PACKED_VERSION)) {
-      throw new VextureError(
-        `${TEXT_VERSION} is "${version}", but with maps it is "${MAP_VERSION}" and without "${PACKED_VERSION}"; ${REMEDY}`,
-        TEXT_VERSION,
-      );
+    if ((version === PACKED_VERSION) === roots.some(({ isMap }) => isMap)) {
+      throw new VextureError(`${TEXT_VERSION} is "${version}"; with maps it is "${MAP_VERSION}", without "${PACKED_VERSION}"; ${REMEDY}`, TEXT_VERSION);
     }
     checkForest(texels, roots);
     for (const root of roots) if (root.isMap) mapParts().checkPaintsOf(root, texels);
+    if (version !== versionOf(roots)) {
+      const known = `with pictures it is "${PICTURE_VERSION}", without "${MAP_VERSION}"`;
+      throw new VextureError(`${TEXT_VERSION} is "${version}"; ${known}; ${REMEDY}`, TEXT_VERSION);
+    }
     return { encoding: 'packed', name: texts.get(TEXT_NAME) || name, width, height, texels, roots };
   } catch (error) {
     throw error instanceof VextureError ? error.in(name) : error;

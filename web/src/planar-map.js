@@ -23,7 +23,7 @@ const COMPONENTS = [0, 1, 2, 3];
  * @property {number} programs index of the first texel of operations
  * @property {number} operations number of their texels
  * @property {number} stops number of the texels of stops, which follow
- * @property {number} rest what must be 0
+ * @property {number} pixels number of the texels of pixels, which follow the stops
  */
 
 /**
@@ -33,8 +33,8 @@ const COMPONENTS = [0, 1, 2, 3];
  */
 export function headOf(texels, quad) {
   const words = texels.subarray(4 * (quad - MAP_HEAD), 4 * quad);
-  const [programs, operations, stops, rest, used, cells, sides, paints] = words;
-  return { quad, used, cells, sides, paints, programs, operations, stops, rest };
+  const [programs, operations, stops, pixels, used, cells, sides, paints] = words;
+  return { quad, used, cells, sides, paints, programs, operations, stops, pixels };
 }
 
 /**

@@ -1,4 +1,4 @@
-// Paints of a planar map that hold gradients (FORMAT.md, D.6): their programs are checked, and give the colour at a point.
+// Paints of a planar map that hold gradients and pictures (FORMAT.md, D.6): their programs are checked, and give the colour at a point.
 // Plain data, without three.js.
 import {
   COORDINATE_BITS,
@@ -7,6 +7,7 @@ import {
   KIND_KEEP,
   KIND_LINEAR,
   KIND_MIX,
+  KIND_PICTURE,
   KIND_RADIAL,
   KIND_SHIFT,
   KIND_SOLID,
@@ -20,6 +21,7 @@ import {
 } from '../generated/layout.js';
 import { blended, isBlend, masking } from './blend.js';
 import { REMEDY, VextureError } from './errors.js';
+import { PICTURE_TEXELS, arePremultiplied, faultOfPicture, pictureColor } from './pictures.js';
 
 /**
  * @typedef {import('./planar-map.js').Head} Head
@@ -93,6 +95,7 @@ export function checkPrograms(texels, head) {
   }
   need(next === head.programs + head.operations, 'they leave gaps');
   for (let stop = next; stop < next + head.stops; stop++) checkStop(texels, stop);
+  need(arePremultiplied(texels, next + head.stops, head.pixels), 'a pixel above its opacity');
 }
 
 /**
@@ -114,7 +117,14 @@ function checkProgram(texels, head, { first, count }) {
   for (let texel = first; texel < first + count; texel++) {
     const words = texels.subarray(4 * texel, 4 * texel + 4);
     const kind = words[3] >>> KIND_SHIFT;
-    need(kind !== 0 && kind !== KIND_FOLLOWS, 'an unknown operation, or half of one');
+    need(kind !== KIND_FOLLOWS, 'half of an operation');
+    if (kind === KIND_PICTURE) {
+      need(texel + PICTURE_TEXELS <= first + count, 'an operation of the wrong length');
+      const fault = faultOfPicture(texels, texel, head.programs + head.operations + head.stops, head.pixels);
+      need(fault === '', fault);
+      texel += PICTURE_TEXELS - 1;
+      continue;
+    }
     if (kind === KIND_LINEAR || kind === KIND_RADIAL || kind === KIND_FOCAL) {
       const following = FOLLOWING[kind] ?? 0;
       need(texel + following < first + count, 'an operation of the wrong length');
@@ -224,6 +234,8 @@ export function programColor(texels, { first, count }, u, v) {
       color = ended(kept.pop() ?? [0, 0, 0, 0], faded, high);
     } else if (kind === KIND_SOLID) {
       color = blended(color, /** @type {Color} */ (halves(low, high).map((part) => part / PAINT_ONE)), 0);
+    } else if (kind === KIND_PICTURE) {
+      color = blended(color, pictureColor(texels, texel, u, v), 0);
     } else if (kind !== KIND_FOLLOWS) {
       color = blended(color, gradientColor(texels, gradientAt(texels, texel), u, v), 0);
     }

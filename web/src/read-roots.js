@@ -1,5 +1,5 @@
 // Reads and validates the list of roots in a packed texture's file (FORMAT.md, B.5).
-import { MOST_STYLE_BYTES, TEXT_ROOTS, TEXT_STYLES } from '../generated/layout.js';
+import { MAP_VERSION, MOST_STYLE_BYTES, PACKED_VERSION, PICTURE_VERSION, TEXT_ROOTS, TEXT_STYLES } from '../generated/layout.js';
 import { REMEDY, VextureError, line } from './errors.js';
 import { inflate } from './inflate.js';
 import { loadMaps, mapParts } from './maps.js';
@@ -83,7 +83,7 @@ function readRoot(entry, place) {
   }
   if (style !== null && !map) refuse(`root ${place}: style`, style, 'of a map', place, 'style');
   return {
-    name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map, hasGradients: false,
+    name, quad, transform, tolerance, crs, paint: paint === null ? null : readPaint(paint, place), isMap: map, hasGradients: false, hasPictures: false,
     style: style === null ? null : mapParts().readStyle(style, `root ${place}`),
   };
 }
@@ -128,4 +128,14 @@ function areNumbers(values, count) {
 function refuse(what, value, must, place, member) {
   const field = `${TEXT_ROOTS}[${place}]${member ? `.${member}` : ''}`;
   throw new VextureError(`${what} is ${line(value)}; it must be ${must}; ${REMEDY}`, field);
+}
+
+/**
+ * Version of a file with these shapes.
+ *
+ * @param {import('./data.js').Root[]} roots
+ */
+export function versionOf(roots) {
+  if (roots.some(({ hasPictures }) => hasPictures)) return PICTURE_VERSION;
+  return roots.some(({ isMap }) => isMap) ? MAP_VERSION : PACKED_VERSION;
 }

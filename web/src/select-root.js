@@ -128,6 +128,16 @@ export function mapsAmong(shown, isAlone) {
 }
 
 /**
+ * What the shader of some shapes needs for paints that are programs, as `VEXTURE_GRADIENTS`: 0 nothing, 1 gradients, 2 pictures
+ * as well.
+ *
+ * @param {Pick<import('./data.js').Root, 'hasGradients' | 'hasPictures'>[]} shown
+ * @returns {0 | 1 | 2}
+ */
+export const gradientsAmong = (shown) =>
+  shown.some(({ hasPictures }) => hasPictures) ? 2 : shown.some(({ hasGradients }) => hasGradients) ? 1 : 0;
+
+/**
  * Which of the shapes of a mesh of glyphs are planar maps: it shows either glyphs in one colour, or those in their own.
  *
  * @param {string | null} mode

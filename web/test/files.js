@@ -94,7 +94,7 @@ export function ktx2(texels, texts = TEXTS, instead = {}) {
 export function altered(data, change) {
   const texels = data.texels.slice();
   change(texels);
-  const roots = data.roots.map(({ paint, isMap, hasGradients: _, style, ...root }) => ({ ...root, map: isMap, ...(style ? { style } : {}), ...(paint ? { paint } : {}) }));
+  const roots = data.roots.map(({ paint, isMap, hasGradients: _, hasPictures: __, style, ...root }) => ({ ...root, map: isMap, ...(style ? { style } : {}), ...(paint ? { paint } : {}) }));
   const version = roots.some(({ map }) => map) ? '2' : '1';
   const texts = { ...TEXTS, [TEXT_VERSION]: version, [TEXT_ROOTS]: JSON.stringify(roots) };
   return ktx2(texels, texts, { width: data.width, height: data.height });

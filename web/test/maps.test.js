@@ -169,8 +169,8 @@ const place = (/** @type {number} */ kind) => 4 * [...Array(STOPS - PROGRAMS).ke
 const BROKEN_PROGRAMS = [
   ['more operations than texels', /the programs of the map/, (words) => (words[4 * (shades.roots[0].quad - 2) + 1] = 0xfffffff0)],
   ['fewer operations', /they leave gaps/, (words) => words[4 * (shades.roots[0].quad - 2) + 1]--],
-  ['no kind', /an unknown operation, or half of one/, (words) => (words[place(2) + 3] &= 0x1fffffff)],
-  ['half of a gradient', /an unknown operation, or half of one|of the wrong length/, (words) => (words[place(2) + 3] |= 0xe0000000)],
+  ['another kind', /of the wrong length|half of an operation/, (words) => (words[place(2) + 3] &= 0x1fffffff)],
+  ['half of a gradient', /half of an operation|of the wrong length/, (words) => (words[place(2) + 3] |= 0xe0000000)],
   ['a number that is not finite', /a number is not finite/, (words) => (words[place(2)] = 0x7f800000)],
   ['stops beyond the part', /stops elsewhere/, (words) => (words[place(2) + 3] |= 0x7ffff)],
   ['no stops', /stops elsewhere/, (words) => (words[place(2) + 3] &= ~(255 << 19))],

@@ -22,7 +22,7 @@ describe('what is read', () => {
     const data = await readPacked(ktx2(texels), 'triangle');
     expect(data).toMatchObject({ encoding: 'packed', name: 'triangle', width: 8, height: 1, texels });
     expect(data.roots).toEqual([
-      { name: 'one', quad: 0, transform: [1, 0, 0, 0, 1, 0], tolerance: 0, crs: null, paint: null, isMap: false, hasGradients: false, style: null },
+      { name: 'one', quad: 0, transform: [1, 0, 0, 0, 1, 0], tolerance: 0, crs: null, paint: null, isMap: false, hasGradients: false, hasPictures: false, style: null },
     ]);
   });
 
@@ -148,7 +148,8 @@ describe('the texts', () => {
   /** @type {[string, Record<string, string>, string][]} */
   const cases = [
     ['no version', { [TEXT_VERSION]: '' }, TEXT_VERSION],
-    ['a later version', { [TEXT_VERSION]: '3' }, TEXT_VERSION],
+    ['a later version', { [TEXT_VERSION]: '4' }, TEXT_VERSION],
+    ['the version of pictures without any', { [TEXT_VERSION]: '3' }, TEXT_VERSION],
     ['the version of maps without any', { [TEXT_VERSION]: '2' }, TEXT_VERSION],
     ['a map in a file of version 1', { [TEXT_ROOTS]: TEXTS[TEXT_ROOTS].replace('}', ',"map":true}') }, TEXT_VERSION],
     ['another encoding', { [TEXT_ENCODING]: 'thesis' }, TEXT_ENCODING],

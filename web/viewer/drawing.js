@@ -1,5 +1,5 @@
 // The drawings of a texture, and the one that is shown.
-import { mapsAmong } from '../src/select-root.js';
+import { gradientsAmong, mapsAmong } from '../src/select-root.js';
 import { drawingOf } from '../src/select-root.js';
 
 /**
@@ -10,7 +10,7 @@ import { drawingOf } from '../src/select-root.js';
  * @property {number} count of layers
  * @property {boolean} silhouette whether it is one black shape
  * @property {'none' | 'some' | 'all'} maps whether its layers are planar maps; `all`: it is one map
- * @property {boolean} gradients whether a map holds gradients
+ * @property {0 | 1 | 2} gradients whether maps hold gradients (1) or pictures as well (2)
  */
 
 /** @typedef {import('../src/data.js').Root} Root */
@@ -65,6 +65,5 @@ export function shownDrawing(texture, name) {
 export function drawingOfRange(texture, { name, first, count }) {
   const layers = texture.roots.slice(first, first + count);
   const silhouette = count === 1 && isBlack(layers[0]);
-  const gradients = layers.some(({ hasGradients }) => hasGradients);
-  return { texture, name, first, count, silhouette, maps: mapsAmong(layers, count === 1), gradients };
+  return { texture, name, first, count, silhouette, maps: mapsAmong(layers, count === 1), gradients: gradientsAmong(layers) };
 }

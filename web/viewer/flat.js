@@ -52,7 +52,8 @@ export class Flat {
   #passes = new Map();
   /** @type {import('./drawing.js').ShownDrawing['maps']} */
   #maps = 'none';
-  #gradients = false;
+  /** @type {import('./drawing.js').ShownDrawing['gradients']} */
+  #gradients = 0;
 
   /**
    * @param {Record<string, {value: any}>} overlays uniforms of overlay.glsl, set by the module `overlays`
@@ -90,7 +91,7 @@ export class Flat {
   #pass(isOverlaid) {
     const { text, call } = DRAWN[this.#maps];
     const key = `${this.#maps} ${this.#gradients} ${isOverlaid}`;
-    const chosen = `${FLAT}#define VEXTURE_GRADIENTS ${Number(this.#gradients)}\n`;
+    const chosen = `${FLAT}#define VEXTURE_GRADIENTS ${this.#gradients}\n`;
     const made = this.#passes.get(key)
       ?? (isOverlaid ? new Pass(chosen + text + overlay + output(call), this.uniforms, { OVERLAY: 1 })
         : new Pass(chosen + text + output(call), this.uniforms));

@@ -211,7 +211,7 @@ def compiled_table() -> tuple[str, dict[str, Any]]:
                 for is_flat in (True, False):
                     for shaded in (False, True):
                         name = f"{'flat' if is_flat else 'any'}{', gradients' if shaded else ''}"
-                        text = map_source(is_flat=is_flat, has_gradients=shaded)
+                        text = map_source(is_flat=is_flat, gradients=int(shaded))
                         made = tools.compile_shader(name.replace(", ", "-"), text, family.name).statistics
                         facts[f"{kind}, {name}"] = dict(made)
                         shown = (made["Instructions"], made["VGPRs"], family.waves(made["VGPRs"]))

@@ -59,14 +59,15 @@ def test_a_texture_is_no_drawing():
         vexture.read(texture, name="a.svg")
 
 
-def test_pictures_are_traced_and_take_no_parameters_of_others():
+def test_pictures_are_drawn_or_traced_and_take_no_parameters_of_others():
     file = io.BytesIO()
     picture = Image.new("L", (32, 32), 255)
     picture.paste(0, (8, 8, 24, 16))
     picture.save(file, "PNG")
-    assert vexture.read(file.getvalue(), name="box.svg").paths[0].box.ravel() == pytest.approx(
-        [0.25, 0.5, 0.75, 0.75], abs=0.02
-    )
+    traced = vexture.read(file.getvalue(), name="box.svg", images="trace")
+    assert traced.paths[0].box.ravel() == pytest.approx([0.25, 0.5, 0.75, 0.75], abs=0.02)
+    (whole,) = vexture.read(file.getvalue(), name="box.svg").paths
+    assert (whole.box.ravel().tolist(), whole.paint.picture.color_at(0.5, 0.6)[0]) == ([0.0, 0.0, 1.0, 1.0], 0.0)
     with pytest.raises(ParameterError, match="`select`"):
         vexture.read(file.getvalue(), select="#a")
 

@@ -16,14 +16,15 @@ from decoder import (
     sample_points,
     trace,
 )
+from picture_decoder import check_picture, check_pixels, picture_color
 
 KINDS = [0, 4, 2, 128, *(8 * n + more for n in range(1, 16) for more in (0, 1, 4, 5))]  # D.2
 # Arrays [quad - root, cell k]: the quad below less the root, or -1; the leaf's first curve, of those of the map; how
 # many it has; its base paint; whether only its mean is known; the mean colour. Then for each curve the points in units
 # of the lattice, the paints on its left and on its right; the colours of the paints; the programs of some of them, each
-# a list of operations: kind, texels, first stop; and offset and colour of all stops. Colours are sRGB, 0..1,
-# premultiplied but for those of stops: red, green, blue, opacity.
-Map = namedtuple("Map", "child first count base mean_only mean curves left right paints programs stops")
+# a list of operations: kind, texels, first stop or texel of pixels; offset and colour of all stops; texels of pixels.
+# Colours are sRGB, 0..1, premultiplied but for those of stops: red, green, blue, opacity.
+Map = namedtuple("Map", "child first count base mean_only mean curves left right paints programs stops pixels")
 
 
 def part(words: np.ndarray, first: int, count: int) -> np.ndarray:
@@ -32,9 +33,12 @@ def part(words: np.ndarray, first: int, count: int) -> np.ndarray:
     return np.arange(first, first + count)
 
 
-def read_programs(words: np.ndarray, first: int, count: int, stops: int, runs: dict) -> dict[int, list[list]]:
+def read_programs(words: np.ndarray, first: int, parts: list[int], runs: dict) -> dict[int, list[list]]:
     """Return the operations of each program, as lists of texels of one operation each (D.6)."""
-    at, programs = first, {}
+    count, stops, number_of_pixels = parts
+    at, programs, pictures = first, {}, set()
+    first_pixel = first + count + stops
+    pixels = words[first_pixel : first_pixel + number_of_pixels]
     for paint, (begin, length) in runs.items():
         need(begin == at and 1 <= length <= 64, "programs follow one another")
         at += length
@@ -42,18 +46,25 @@ def read_programs(words: np.ndarray, first: int, count: int, stops: int, runs: d
         programs[paint], row, opened = [], begin, 0
         while row < at:
             kind, rest = divmod(int(words[row, 3]), 1 << 29)
-            size = {1: 1, 2: 1, 3: 2, 4: 3, 5: 1, 6: 1}.get(kind, 0)
+            size = {0: 3, 1: 1, 2: 1, 3: 2, 4: 3, 5: 1, 6: 1}.get(kind, 0)
             texels = words[row : row + size].astype(np.uint32)
             need(size and row + size <= at and (texels[1:, 3] == 7 << 29).all(), "operation")
-            check_operation(kind, rest, texels, first + count - row, first + count + stops - row, words[row:])
+            place = row + (rest & 0x7FFFF) - first - count
+            if kind == 0:
+                picture = check_picture(texels, first_pixel - row, pixels)
+                pictures.add(picture)
+                place = picture[0]
+            else:
+                check_operation(kind, rest, texels, first + count - row, first + count + stops - row, words[row:])
             opened += (kind == 5) - (kind == 6)
             need(0 <= opened <= 3, "groups")
-            programs[paint].append((kind, texels, row + (rest & 0x7FFFF) - first - count))
+            programs[paint].append((kind, texels, place))
             row += size
         need(opened == 0, "a group is not ended")
         number = [int(texels[0, 3]) >> 19 & 255 for kind, texels, _ in programs[paint] if 2 <= kind <= 4]
         need(sum(number) <= 255, "stops of a program")
     need(at == first + count, "operations of no program")
+    check_pixels(pixels, pictures)
     return programs
 
 
@@ -149,7 +160,7 @@ def blend(below: np.ndarray, above: np.ndarray, mode: int) -> np.ndarray:
     return np.column_stack([color, as_ + ab * (1 - as_)])
 
 
-def run(program: list, stops: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+def run(program: list, planar: Map, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     """Return the colour of a program at each point (D.6)."""
     color, kept = np.zeros((len(x), 4)), []
     for kind, texels, first in program:
@@ -161,9 +172,11 @@ def run(program: list, stops: np.ndarray, x: np.ndarray, y: np.ndarray) -> np.nd
         elif kind == 1:
             solid = np.array([word >> shift & 65535 for word in texels[0, :2].tolist() for shift in (0, 16)]) / 65535
             color = blend(color, np.broadcast_to(solid, color.shape), 0)
+        elif kind == 0:
+            color = blend(color, picture_color(texels, planar.pixels[first:], x, y), 0)
         else:
             count = int(texels[0, 3]) >> 19 & 255
-            color = blend(color, gradient_color(kind, texels, stops[first : first + count], x, y), 0)
+            color = blend(color, gradient_color(kind, texels, planar.stops[first : first + count], x, y), 0)
     return color
 
 
@@ -197,8 +210,8 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     """Return the map with this root quad, and the indices of the texels of its parts (D.1 to D.6)."""
     need(1 < root < len(words), "no head")
     p, cells, sides, paints = words[root - 1].tolist()
-    first_program, operations, stops, rest = words[root - 2].tolist()
-    need(rest == 0 and (operations > 0 or first_program == stops == 0), "head")
+    first_program, operations, stops, pixels = words[root - 2].tolist()
+    need(operations > 0 or first_program == stops == pixels == 0, "head")
     need(1 <= p <= 1 << 24, "number of paints")
     quads, curves = trace(words, [root], KINDS, read_map_cells)
     c, n, t = min(curves, default=0), len(quads), len(curves)
@@ -223,9 +236,9 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     pairs = words[at_paints].reshape(-1, 2)[:p]
     is_program = (pairs[:, 1] >> 16 == 0) & (pairs[:, 0] != 0)
     colors = np.where(is_program[:, None], 0, (pairs[:, :, None] >> np.array([0, 16]) & 65535).reshape(-1, 4))
-    at_programs = part(words, first_program, operations + stops)
+    at_programs = part(words, first_program, operations + stops + pixels)
     runs = {int(j): pairs[j].tolist() for j in np.flatnonzero(is_program)}
-    programs = read_programs(words, first_program, operations, stops, runs)
+    programs = read_programs(words, first_program, [operations, stops, pixels], runs)
     need(all((color[..., :3] <= color[..., 3:]).all() for color in (mean, colors)), "a colour above its opacity")
 
     kind, child, _, n_curves = (array[root : root + n] for array in read_cells(words))
@@ -233,8 +246,9 @@ def read_map(words: np.ndarray, root: int) -> tuple[Map, np.ndarray]:
     need(not base[(kind == 128) | (kind == 2)].any(), "a base paint where there is none")
     used = np.concatenate([[root - 2, root - 1], quads, curves, at_cells, at_sides, at_paints, at_programs])
     arrays = np.where(child < 0, -1, child - root), first, n_curves
-    faces = points, left, right, colors / 65535, programs, read_stops(words[at_programs[operations:]])
-    return Map(*arrays, base, kind == 2, mean / 255, *faces), used
+    faces = points, left, right, colors / 65535, programs
+    at_stops, at_pixels = at_programs[operations : operations + stops], at_programs[operations + stops :]
+    return Map(*arrays, base, kind == 2, mean / 255, *faces, read_stops(words[at_stops]), words[at_pixels]), used
 
 
 @refusing()
@@ -264,10 +278,12 @@ def read_maps(data: bytes) -> tuple[list[dict], Texture, list[Map | None]]:
     version, roots, words = read_ktx2(data)
     is_map = [root.get("map", False) for root in roots]
     need(all(isinstance(yes, bool) for yes in is_map), "map is true or false")
-    need(version == "2" and any(is_map), "version")
+    need(version in ("2", "3") and any(is_map), "version")
     need(not any("paint" in root for root, yes in zip(roots, is_map, strict=True) if yes), "a map with a paint")
     shapes, used = read_shapes(words, [root for root, yes in zip(roots, is_map, strict=True) if not yes])
     maps = {q: read_map(words, q) for q in {r["quad"] for r, yes in zip(roots, is_map, strict=True) if yes}}
+    has_pictures = any(len(planar.pixels) for planar, _ in maps.values())
+    need(version == ("3" if has_pictures else "2"), "version of pictures")
     check_used(words, np.concatenate([used, *(indices for _, indices in maps.values())]))
     return roots, shapes, [maps[r["quad"]][0] if yes else None for r, yes in zip(roots, is_map, strict=True)]
 
@@ -327,7 +343,7 @@ def color_at(planar: Map, x: np.ndarray, y: np.ndarray) -> np.ndarray:
     colors = planar.paints[paint]
     for j, program in planar.programs.items():
         at = np.flatnonzero(paint == j)
-        colors[at] = run(program, planar.stops, np.asarray(x)[point[at]], np.asarray(y)[point[at]])
+        colors[at] = run(program, planar, np.asarray(x)[point[at]], np.asarray(y)[point[at]])
     np.add.at(color, point, count[:, None] * colors)
     return color
 

@@ -6,21 +6,26 @@ from pathlib import Path
 
 import map_decoder
 import numpy as np
+import picture_decoder
 import pytest
 
 import vexture
 from degenerate import drawing, points_near
-from gradient_drawings import DRAWINGS, blend_drawing
-from planar import colour_paths
+from gradient_drawings import DRAWINGS, SQUARE, blend_drawing, painted_path
+from picture_drawings import PICTURES
+from planar import colour_paths, colours_at
 from vexture.conversion.parameters import Parameters
 from vexture.conversion.pipeline import atlas, run
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.group import Blend
+from vexture.drawing.paint import Paint
+from vexture.drawing.picture import Picture
 from vexture.renderers.exact import render_exact_colours
 from vexture.texture.load import texture_from
 
 REPOSITORY = Path(__file__).parents[3]
 SIZE = 32
+PIXELS = np.array([[(255, 0, 0, 255), (0, 0, 128, 128)]], np.uint8)
 
 
 def sample(seed: int) -> Drawing:
@@ -44,6 +49,28 @@ def test_it_runs_programs(of: Drawing) -> None:
     middles = (np.arange(8) + 0.5) / 8000 + 0.3
     wanted = map_decoder.color_at(planar, *(axis.ravel() for axis in np.meshgrid(middles, middles[::-1])))
     np.testing.assert_allclose(pixels.reshape(-1, 4), wanted, atol=0.01)
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_it_shows_pictures(name: str) -> None:
+    of, points = PICTURES[name], np.random.default_rng(1).random((200, 2))
+    _, _, (planar,) = map_decoder.read_maps(run(of, Parameters("faces")).texture.to_ktx2())
+    wanted, distance = colours_at(of, points)
+    found = map_decoder.color_at(planar, *points.T)
+    is_close = (abs(found - wanted) < 2e-4).all(axis=1)
+    assert is_close[distance > 1e-3].mean() > 0.98  # the others are beside a border of pixels
+
+
+def test_levels_are_means() -> None:
+    _, _, (planar,) = map_decoder.read_maps(run(PICTURES["photo"], Parameters("faces")).texture.to_ktx2())
+    pixels = PICTURES["photo"].paths[0].paint.picture.pixels
+    levels = picture_decoder.read_levels(planar.pixels, (pixels.shape[1], pixels.shape[0]))
+    assert [level.shape[:2] for level in levels] == [(7, 9), (4, 5), (2, 3), (1, 2), (1, 1)]
+    np.testing.assert_array_equal(levels[0], pixels)
+    for k, level in enumerate(levels):
+        for j, i in np.ndindex(level.shape[:2]):
+            block = pixels[j << k : j + 1 << k, i << k : i + 1 << k].reshape(-1, 4)
+            assert level[j, i].tolist() == np.floor(block.mean(axis=0) + 0.5).tolist()
 
 
 @pytest.mark.parametrize("seed", [3, 7])
@@ -85,3 +112,24 @@ def test_the_example_is_what_it_says() -> None:
     assert planar.curves[1, 1].tolist() == [16384, 16384]
     assert planar.curves[7, 2].tolist() == [1, 24576]
     assert map_decoder.paint_at(planar, np.array([0.7, 0.3, 0.05]), np.array([0.7, 0.3, 0.5])).tolist() == [2, 1, 0]
+
+
+def test_the_example_of_a_picture_is_what_it_says() -> None:
+    part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.6 Programs")[1].split("### D.7")[0]
+    rows = re.findall(r"^\| (\d+) \|((?: [0-9a-f]{8} \|){4})", part.split("a picture of two pixels")[1], re.M)
+    assert [number for number, _ in rows] == ["20", "21", "22", "23", "24"]
+    words = np.array([[int(word, 16) for word in row.split("|")[:4]] for _, row in rows])
+    program = map_decoder.read_programs(words, 0, [3, 0, 2], {1: [0, 3]})
+    ((kind, texels, first),) = program[1]
+    assert (kind, first) == (0, 0)
+    x, y = np.array([0.1, 0.5, 0.9]), np.array([0.5, 0.2, 0.7])
+    found = picture_decoder.picture_color(texels, words[3 + first :], x, y)
+    half = 128 / 255
+    wanted = [(1, 0, 0, 1), (0.5, 0, half / 2, (1 + half) / 2), (0, 0, half, half)]
+    np.testing.assert_allclose(found, wanted)
+    levels = picture_decoder.read_levels(words[3:], (2, 1))
+    assert levels[1].tolist() == [[[128, 0, 64, 192]]]
+    drawing = Drawing((painted_path(SQUARE, Paint.from_picture(Picture(((2, 0, 0), (0, -1, 1)), PIXELS))),))
+    flat = run(drawing, Parameters("faces")).texture.flat
+    programs, operations, _, count = flat[0].tolist()
+    np.testing.assert_array_equal(flat[programs : programs + operations + count], words)

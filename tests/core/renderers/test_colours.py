@@ -187,7 +187,7 @@ def test_light_is_averaged_and_straight_colours_are_decoded(render: Any, entry: 
 def test_the_shader_compiles_in_both_dialects(version: str) -> None:
     need_gpu()
     with context() as gl:
-        for is_flat, is_linear, has_gradients in ((False, False, True), (True, True, False), (True, False, True)):
-            fragment = color_source(version, is_flat, is_linear, has_gradients)
+        for is_flat, is_linear, gradients in ((False, False, 1), (True, True, 0), (True, False, 2)):
+            fragment = color_source(version, is_flat, is_linear, gradients)
             assert f"#define VEXTURE_FLAT {int(is_flat)}\n" in fragment
             gl.program(vertex_shader=vertex_source(version), fragment_shader=fragment).release()

@@ -7,7 +7,7 @@ import pytest
 from hand import TREE, need_gpu, texture_of
 
 from vexture.fold import blend as folding
-from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece
+from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece, pixels
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, read_shader, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -36,6 +36,7 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "blend.glsl": SimpleNamespace(**{**vars(blend), **vars(gradient)}),
     "colour.glsl": colour,
     "gradient.glsl": gradient,
+    "picture.glsl": pixels,
     "srgb.glsl": paints,
     "paints.glsl": paints,
     "moment.glsl": moment,

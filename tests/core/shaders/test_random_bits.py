@@ -15,7 +15,7 @@ from vexture.texture.texture import Texture
 
 ROOT = Path(__file__).parents[3]
 SIZE = (64, 64)
-NUMBERS = (("VEXTURE_FLAT", 0), ("VEXTURE_WRAP", 0), ("VEXTURE_GRADIENTS", 1), ("VEXTURE_LINEAR", 0))
+NUMBERS = (("VEXTURE_FLAT", 0), ("VEXTURE_WRAP", 0), ("VEXTURE_GRADIENTS", 2), ("VEXTURE_LINEAR", 0))
 SHOWN = {
     "view_coverage.glsl": "\nvec4 shown(vec2 pixel) { return vec4(view_coverage(pixel)); }\n",
     "view_color.glsl": "\nvec4 shown(vec2 pixel) { return view_color(pixel); }\n",

@@ -201,7 +201,7 @@ def test_path_of_a_drawing_takes_page_colours(tmp_path: Path) -> None:
 
 def test_viewer_takes_page_colours() -> None:
     options = {"tolerance": "auto", "precision": None, "select": None, "split": None, "silhouette": False}
-    given = viewer_parameters(**options, fonts=None, trace_images=None, page_colors={"--primary": "#00f"})  # type: ignore[arg-type]
+    given = viewer_parameters(**options, fonts=None, images=None, page_colors={"--primary": "#00f"})  # type: ignore[arg-type]
     facts = shape_of(svg(squares("var(--primary)")), "a.svg", "a", given).facts
     assert facts["notes"] == []
     assert shape_of(svg(squares("var(--primary)")), "a.svg", "a", Parameters()).facts["notes"] != []

@@ -1,4 +1,7 @@
-"""Images in an SVG: pictures traced where they stand, files only from beside the drawing, everything else named."""
+"""Images in an SVG: pictures traced where they stand, files only from beside the drawing, everything else named.
+
+Pictures that are drawn are in `test_svg_pictures.py`.
+"""
 
 import base64
 import gzip
@@ -17,6 +20,7 @@ from svg_reference import difference
 import vexture
 from vexture.base.errors import ParameterError, SourceWarning
 from vexture.cli.main import main
+from vexture.conversion.parameters import ImageTreatment
 from vexture.drawing.drawing import Drawing
 from vexture.svg.images import DEEPEST, MOST_IMAGES
 
@@ -40,14 +44,14 @@ def data_url(content: bytes, media_type: str = "image/png") -> str:
     return f"data:{media_type};base64,{base64.b64encode(content).decode()}"
 
 
-def read(text: str, folder: Path | None = None, trace_images: bool = True) -> Drawing:
+def read(text: str, folder: Path | None = None, images: ImageTreatment = "trace") -> Drawing:
     """Read a text, as a file in a folder if one is given."""
     source: Path | bytes = text.encode()
     if folder is not None:
         source = folder / "drawing.svg"
         source.write_text(text)
     with warnings.catch_warnings(action="ignore", category=SourceWarning):
-        return vexture.read(source, trace_images=trace_images)
+        return vexture.read(source, images=images)
 
 
 def notes(drawing: Drawing) -> list[str]:
@@ -113,12 +117,12 @@ def test_gradients_of_a_picture_stay_where_they_are(case: str, tmp_path: Path) -
     assert mean < 0.02
 
 
-def test_a_picture_is_named_unless_it_is_asked_for(tmp_path: Path) -> None:
+def test_a_picture_that_is_left_out_is_named(tmp_path: Path) -> None:
     (tmp_path / "a.png").write_bytes(picture())
     images = {"a.png": "image 'a.png'", data_url(picture()): "an embedded PNG of 300 x 200"}
     for link, called in images.items():
-        drawing = read(SVG.format(f'<image width="9" height="9" href="{link}"/>'), tmp_path, trace_images=False)
-        assert (notes(drawing), drawing.paths) == ([f"{called} (`trace_images` traces it)"], ())
+        drawing = read(SVG.format(f'<image width="9" height="9" href="{link}"/>'), tmp_path, "none")
+        assert (notes(drawing), drawing.paths) == ([f"{called} (pictures are left out)"], ())
 
 
 def test_a_drawing_beside_a_drawing_needs_no_option(tmp_path: Path) -> None:
@@ -126,16 +130,18 @@ def test_a_drawing_beside_a_drawing_needs_no_option(tmp_path: Path) -> None:
     (tmp_path / "b.svgz").write_bytes(gzip.compress((tmp_path / "a.svg").read_bytes()))
     for link in ("a.svg", "b.svgz"):
         text = SVG.format(f'<image width="100" height="100" href="{link}"/>')
-        (path,) = read(text, tmp_path, trace_images=False).paths
+        (path,) = read(text, tmp_path, "none").paths
         assert path.box.tolist() == [[0.0, 0.0], [0.5, 1.0]]
         assert len(vexture.read_svg(tmp_path / "drawing.svg").paths) == 1
 
 
-@pytest.mark.parametrize("traced", [False, True])
+@pytest.mark.parametrize("treatment", ["draw", "trace"])
 @pytest.mark.parametrize("content", [b"", b"II*\0 of a TIFF", b"%PDF-1.7", b"<html/>", b'{"type": "Point"}'])
-def test_a_file_that_is_no_picture_is_named_with_what_is_read(content: bytes, traced: bool, tmp_path: Path) -> None:
+def test_a_file_that_is_no_picture_is_named_with_what_is_read(
+    content: bytes, treatment: ImageTreatment, tmp_path: Path
+) -> None:
     (tmp_path / "a.tif").write_bytes(content)
-    (note,) = notes(read(SVG.format('<image width="9" href="a.tif"/>'), tmp_path, trace_images=traced))
+    (note,) = notes(read(SVG.format('<image width="9" href="a.tif"/>'), tmp_path, treatment))
     why = {b"": "it is empty", b"<html/>": "the root element is <html>, not <svg>; this is not an SVG file"}
     assert note == f"image 'a.tif' ({why.get(content, 'it is no SVG, PNG, JPEG, WebP, GIF or BMP')})"
 
@@ -181,8 +187,8 @@ FETCHED = "nothing is fetched from an address"
         ("data:image/png,", "an embedded image", "it is empty"),
     ],
 )
-@pytest.mark.parametrize("traced", [False, True])
-def test_what_is_not_read_is_named(link: str, called: str, why: str, traced: bool, tmp_path: Path) -> None:
+@pytest.mark.parametrize("treatment", ["draw", "trace"])
+def test_what_is_not_read_is_named(link: str, called: str, why: str, treatment: ImageTreatment, tmp_path: Path) -> None:
     folder = tmp_path / "folder"
     (folder / "sub").mkdir(parents=True)
     for name in ("secret.png", "folder/a.png"):
@@ -191,15 +197,16 @@ def test_what_is_not_read_is_named(link: str, called: str, why: str, traced: boo
     (folder / "outside").symlink_to(tmp_path)
     os.mkfifo(folder / "pipe")
     link = link.format(tmp_path)
-    drawing = read(SVG.format(f'<image width="9" href="{link}"/>'), folder, traced)
+    drawing = read(SVG.format(f'<image width="9" href="{link}"/>'), folder, treatment)
     assert (notes(drawing), drawing.paths) == ([f"{called} ({why})"], ())
 
 
 def test_a_drawing_that_is_no_file_reads_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "a.png").write_bytes(picture())
     monkeypatch.chdir(tmp_path)
-    for traced in (False, True):
-        drawing = read(SVG.format('<image width="9" href="a.png"/>'), trace_images=traced)
+    treatments: tuple[ImageTreatment, ...] = ("draw", "trace")
+    for treatment in treatments:
+        drawing = read(SVG.format('<image width="9" href="a.png"/>'), images=treatment)
         assert notes(drawing) == ["image 'a.png' (a drawing that is no file itself shows no files)"]
 
 
@@ -218,15 +225,19 @@ def bomb(side: int) -> bytes:
 
 @pytest.mark.parametrize(("side", "why"), [(30_000, "limit"), (8_000, "50,000,000"), (9, "damaged")])
 def test_a_picture_that_is_too_large_or_damaged_is_named(side: int, why: str) -> None:
-    (note,) = notes(read(SVG.format(f'<image width="9" href="{data_url(bomb(side))}"/><path d="M0 0h9v9z"/>')))
-    assert why in note
+    treatments: tuple[ImageTreatment, ...] = ("draw", "trace")
+    for treatment in treatments:
+        text = SVG.format(f'<image width="9" href="{data_url(bomb(side))}"/><path d="M0 0h9v9z"/>')
+        drawing = read(text, images=treatment)
+        (note,) = notes(drawing)
+        assert (why in note, len(drawing.paths)) == (True, 1)
 
 
 def test_drawings_in_one_another_end(tmp_path: Path) -> None:
     text = SVG.format('<path d="M0 0h9v9z"/>')
     for _ in range(DEEPEST + 2):
         text = SVG.format(f'<path d="M0 0h9v9z"/><image width="9" href="{data_url(text.encode())}"/>')
-    drawing = read(text, trace_images=False)
+    drawing = read(text, images="none")
     assert len(drawing.paths) == DEEPEST + 1
     assert notes(drawing)[0] == f"an embedded image (drawings in it are nested more than {DEEPEST} deep)"
     (tmp_path / "drawing.svg").write_text("")
@@ -242,18 +253,20 @@ def test_very_many_images_are_named() -> None:
     assert notes(drawing)[0] == f"an embedded image (the drawing has more than {MOST_IMAGES} images)"
 
 
-def test_only_images_of_an_svg_are_traced() -> None:
-    with pytest.raises(ParameterError, match="`trace_images` is for the images in an SVG; leave it out"):
-        vexture.read(picture(), trace_images=True)
+def test_pictures_have_a_treatment_and_maps_have_none() -> None:
+    with pytest.raises(ParameterError, match="`images` 'none' leaves nothing of a picture; leave it out"):
+        vexture.read(picture(), images="none")
+    with pytest.raises(ParameterError, match="`images` 'trace' is for pictures, and for those in an SVG; leave it out"):
+        vexture.read(b'{"type": "Point", "coordinates": [0, 0]}', images="trace")
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export"])
-def test_commands_say_how_an_image_is_traced(command: str, tmp_path: Path) -> None:
+def test_commands_leave_pictures_out(command: str, tmp_path: Path) -> None:
     file = tmp_path / "drawing.svg"
     file.write_text(SVG.format(f'<path d="M0 0h9v9z"/><image width="90" href="{data_url(picture())}"/>'))
     out = tmp_path / {"convert": "out.ktx2", "render": "out.png", "export": "out.html"}[command]
-    result = CliRunner().invoke(main, [command, str(file), "-o", str(out)])
-    assert f"{file}: left out: an embedded PNG of 300 x 200 (--trace-images traces it)\n" in result.output
+    result = CliRunner().invoke(main, [command, str(file), "-o", str(out), "--no-images"])
+    assert f"{file}: left out: an embedded PNG of 300 x 200 (pictures are left out)\n" in result.output
 
 
 @pytest.mark.parametrize("command", ["convert", "render", "export"])

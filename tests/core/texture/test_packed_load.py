@@ -150,8 +150,9 @@ ENTRY = {"name": "a", "quad": 0, "transform": [1, 0, 0, 0, 1, 0], "tolerance": 0
 @pytest.mark.parametrize(
     ("key", "value", "expected"),
     [
-        ("vexture.version", "3", "vexture.version is '3'; this program reads '1' and '2'; update it"),
-        ("vexture.version", "2", "vexture.version is '2', but with maps it is '2' and without '1'"),
+        ("vexture.version", "4", "vexture.version is '4'; this program reads '1', '2', '3'; update it"),
+        ("vexture.version", "3", "vexture.version is '3', but with pictures it is '3', with maps '2' and without '1'"),
+        ("vexture.version", "2", "vexture.version is '2', but with pictures it is '3', with maps '2' and without '1'"),
         ("vexture.version", None, "vexture.version is None"),
         ("vexture.encoding", "layers", "vexture.encoding is 'layers'"),
         ("vexture.encoding", "x" * 100_000, "vexture.encoding is 'xxx"),

@@ -3,6 +3,7 @@
 import io
 import struct
 import zlib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,11 +13,11 @@ from traced_drawings import COLOURS, LOGO, SHAPES, area, coloured, distances, fi
 
 import vexture
 from vexture.base.errors import LimitError, SourceError, SourceWarning, VextureError
+from vexture.base.pixels import MOST_PIXELS
 from vexture.cli.main import main
 from vexture.server.publish_file import VIEWER_PARAMETERS, shape_of
 from vexture.svg.read import svg_drawing
 from vexture.texture.load import texture_from
-from vexture.tracing.trace import MOST_PIXELS
 
 RING = b"""<svg viewBox="0 0 10 10"><path fill-rule="evenodd" d="M1 5a4 4 0 0 0 8 0a4 4 0 0 0 -8 0zM3 5a2 2 0 0 0 4 0
 a2 2 0 0 0 -4 0z"/></svg>"""
@@ -185,14 +186,14 @@ def run(*arguments):
 
 
 def test_command_line_converts_and_draws_pictures(logo, tmp_path):
-    result = run("convert", logo, "-o", tmp_path, "--split", "paint")
+    result = run("convert", logo, "-o", tmp_path, "--split", "paint", "--trace-images")
     assert result.exit_code == 0, result.output
     assert ", 4 layers, " in result.output
     texture = vexture.load(tmp_path / "logo.ktx2")
     assert [root.paint.hex for root in texture.roots] == COLOURS
     assert texture.contains([(0.5, 0.5), (0.02, 0.5)], root=texture.roots[0].name).tolist() == [False, False]
     picture = tmp_path / "drawn.png"
-    drawing, encoded = (logo, "--renderer", "exact"), (tmp_path / "logo.ktx2", "--renderer", "cpu")
+    drawing, encoded = (logo, "--renderer", "exact", "--trace-images"), (tmp_path / "logo.ktx2", "--renderer", "cpu")
     for shown in (drawing, encoded):
         result = run("render", *shown, "-o", picture)
         assert result.exit_code == 0, result.output
@@ -231,7 +232,7 @@ def test_selectors_choose_nothing_of_a_picture(logo, tmp_path):
 
 
 def test_pictures_are_published_and_shown(logo):
-    shape = shape_of(logo.read_bytes(), "logo.png", "logo", VIEWER_PARAMETERS)
+    shape = shape_of(logo.read_bytes(), "logo.png", "logo", replace(VIEWER_PARAMETERS, images="trace"))
     texture = texture_from(shape.texture.data, "logo")
     assert [root.is_map for root in texture.roots] == [True]
     shown = {tuple(np.rint(255 * color).astype(int)) for color in texture.render(64).reshape(-1, 4)}

@@ -119,7 +119,7 @@ def test_programs_of_random_groups_are_right(seed: int) -> None:
     wanted, _ = colours_at(of, points)
     work, found = np.zeros((len(ops[0]) + 1, 4)), np.zeros(4)
     for point, colour in zip(points, wanted, strict=True):
-        colour_at(layers, Operations(*ops), count, *point.tolist(), work, found)
+        colour_at(layers, Operations(*ops), count, tuple(point.tolist()), (0.0, 0.0), work, found)
         np.testing.assert_allclose(found, colour, atol=2e-5)  # opacities have 16 bits
 
 

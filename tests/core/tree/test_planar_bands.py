@@ -9,7 +9,7 @@ from vexture.conversion.pipeline import run
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 from vexture.tree.planar.bands import BANDS, MOST_BANDS, REGIONS, STEEP, add_bands, new_bands
-from vexture.tree.planar.shades import Shades, gradient_of, shade_at, shades_of
+from vexture.tree.planar.shades import Shades, shade_at, shade_of, shades_of
 
 FOCI = (None, (0.0, 0.0), (0.5, 0.2), (0.3, 0.0), (1.0, 0.0), (1.5, 0.3), (0.7, 1.0), (1.8, 1.5), (0.3, 2.5))
 """Lines; nested circles; those that touch; cones, of circles that grow, stay and shrink; nested ones that shrink."""
@@ -24,10 +24,10 @@ class Bands(NamedTuple):
 
 def bands_of(gradient: Gradient, box: np.ndarray, at_all_stops: bool = False) -> Bands:
     """Bands of one gradient, as objects."""
-    (row,), stops = shades_of([gradient])
+    (row,), stops, _ = shades_of([gradient])
     found = add_bands(new_bands(4), row, stops, box, int(at_all_stops))
-    shades = Shades(found.rows, found.stops)
-    gradients = [gradient_of(shades, number) for number in found.bands[: found.counts[BANDS]].tolist()]
+    shades = Shades(found.rows, found.stops, np.zeros(0, np.uint32))
+    gradients = [shade_of(shades, number) for number in found.bands[: found.counts[BANDS]].tolist()]
     ends = np.cumsum(found.lengths[: found.counts[REGIONS]])
     return Bands(gradients, np.split(found.cubics, ends)[:-1])
 
@@ -130,12 +130,12 @@ def test_equal_gradients_are_one_and_many_find_their_way() -> None:
     ]
     found = new_bands(4)
     for ramp in 2 * ramps:
-        (row,), stops = shades_of([ramp])
+        (row,), stops, _ = shades_of([ramp])
         found = add_bands(found, row, stops, WHOLE, 0)
     assert found.counts.tolist() == [99, 198, 198, 0, 0]
     assert found.bands[:198].tolist() == 2 * [*range(99)]
-    shades = Shades(found.rows, found.stops)
-    assert [gradient_of(shades, number) for number in range(99)] == ramps
+    shades = Shades(found.rows, found.stops, np.zeros(0, np.uint32))
+    assert [shade_of(shades, number) for number in range(99)] == ramps
 
 
 def test_equal_circles_of_one_place_paint_nothing() -> None:

@@ -32,7 +32,7 @@ def test_rows_have_the_colours_and_boxes_of_the_layers():
 
 
 def test_variants_of_the_shader_differ_by_their_definitions_alone():
-    texts = {flags: map_source(is_flat=flags[0], has_gradients=flags[1]) for flags in ((0, 0), (1, 0), (0, 1))}
+    texts = {flags: map_source(is_flat=flags[0], gradients=flags[1]) for flags in ((0, 0), (1, 0), (0, 1))}
     assert "#define VEXTURE_FLAT 1\n" in texts[1, 0]
     assert "#define VEXTURE_GRADIENTS 1\n" in texts[0, 1]
     for text in texts.values():

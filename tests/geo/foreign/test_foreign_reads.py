@@ -65,7 +65,7 @@ def test_features_lead_nowhere(way, folder, outside):
 def test_drawings_lead_nowhere(way, folder, outside):
     path = make_source(DRAWINGS, way, folder, outside)
     for given in (path, path.read_bytes()):
-        said = one_line(message_of(vexture.read, given, trace_images=True))
+        said = one_line(message_of(vexture.read, given, images="trace"))
         assert outside.take_accesses() == []
         assert (said == "READ ") == (way in UNSAID)
 

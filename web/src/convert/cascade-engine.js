@@ -20,7 +20,7 @@ import { parseXml } from './parse-xml.js';
 /** Initial values of properties (SVG 2, CSS), with what is inherited marked by +. */
 const PROPERTIES = /** @type {Readonly<Record<string, string>>} */ ({
   '+clip-rule': 'nonzero', '+color': 'black', '+color-interpolation': 'sRGB', '+fill': 'black', '+fill-opacity': '1',
-  '+fill-rule': 'nonzero', '+font-size': '16px', '+marker-end': 'none', '+marker-mid': 'none', '+marker-start': 'none',
+  '+fill-rule': 'nonzero', '+font-size': '16px', '+image-rendering': 'auto', '+marker-end': 'none', '+marker-mid': 'none', '+marker-start': 'none',
   '+paint-order': 'normal', '+stroke': 'none', '+stroke-dasharray': 'none', '+stroke-dashoffset': '0', '+stroke-linecap': 'butt',
   '+stroke-linejoin': 'miter', '+stroke-miterlimit': '4', '+stroke-opacity': '1', '+stroke-width': '1', '+visibility': 'visible',
   'background-color': 'transparent', 'clip-path': 'none', display: 'inline', filter: 'none', isolation: 'auto', mask: 'none',

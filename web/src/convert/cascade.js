@@ -16,7 +16,7 @@ import { generate, lexer, parse as parseCss } from 'css-tree';
 /** Presentation attributes of SVG 2 that a drawing depends on, besides those of geometry. */
 const ATTRIBUTES = new Set([
   'clip-path', 'clip-rule', 'color', 'color-interpolation', 'display', 'fill', 'fill-opacity', 'fill-rule', 'filter', 'font-size',
-  'isolation', 'marker-end', 'marker-mid', 'marker-start', 'mask', 'mask-type', 'mix-blend-mode', 'opacity', 'overflow', 'paint-order',
+  'image-rendering', 'isolation', 'marker-end', 'marker-mid', 'marker-start', 'mask', 'mask-type', 'mix-blend-mode', 'opacity', 'overflow', 'paint-order',
   'stop-color', 'stop-opacity', 'stroke', 'stroke-dasharray', 'stroke-dashoffset', 'stroke-linecap', 'stroke-linejoin',
   'stroke-miterlimit', 'stroke-opacity', 'stroke-width', 'transform', 'transform-origin', 'vector-effect', 'visibility',
 ]);

@@ -183,7 +183,7 @@ function rootsOf(sheets, tolerance, isColoured) {
     const flat = !isMap && isColoured && drawing.paths.length ? drawing.paths[0].paint : null;
     return {
       name: drawing.name, quad, transform: [a, c, e, b, d, f], tolerance, crs: drawing.crs ?? null,
-      paint: flat && { color: flat.color, opacity: flat.opacity }, isMap, hasGradients: false, style,
+      paint: flat && { color: flat.color, opacity: flat.opacity }, isMap, hasGradients: false, hasPictures: false, style,
     };
   });
 }

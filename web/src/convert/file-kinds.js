@@ -15,7 +15,7 @@ const KINDS = [
   [/^(?:wOFF|wOF2|OTTO|\0\x01\0\0)/, 'a font'],
 ];
 
-/** Pictures, which the program traces. */
+/** Pictures: those that are whole come no further than their decoder. */
 const PICTURE = / picture$/;
 
 /**
@@ -28,7 +28,7 @@ export function describeContent(text) {
   const remedy = 'give SVG, GeoJSON or TopoJSON';
   if (!text.trim()) return `is empty; ${remedy}`;
   const kind = KINDS.find(([start]) => start.test(text))?.[1];
-  if (kind) return `is ${kind}; ${remedy}${PICTURE.test(kind) ? ', or trace it with the program vexture' : ''}`;
+  if (kind) return PICTURE.test(kind) ? `is ${kind} that is damaged; save it again` : `is ${kind}; ${remedy}`;
   const isText = !/[\0-\x08\x0e-\x1f\ufffd]/.test(text.slice(0, 1000));
   return `${isText ? 'is a text that' : 'is no text; it'} begins with ${line(text.slice(0, 20))}; ${remedy}`;
 }

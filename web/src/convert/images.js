@@ -1,8 +1,11 @@
-// Images in an SVG (SVG 2, 12.3): embedded drawings are drawn; nothing is fetched, and pictures are not traced.
+// Images in an SVG (SVG 2, 12.3): embedded drawings and pictures are drawn; nothing is fetched.
 import { VextureError } from '../errors.js';
-import { IDENTITY, multiply, translate } from './affine.js';
+import { IDENTITY, inverse, multiply, translate } from './affine.js';
+import { loopOf, rectangle } from './contours.js';
+import { NO_IMAGE, decodePicture, pictureSize } from './decode-picture.js';
 import { lengthOf } from './lengths.js';
 import { OvertimeError } from './pace.js';
+import { paintOfPicture, rowsOf } from './paints.js';
 import { shortenText } from './report.js';
 import { isFlat, within } from './space.js';
 import { THINNEST, ownSize } from './viewport.js';
@@ -10,6 +13,7 @@ import { THINNEST, ownSize } from './viewport.js';
 /** @template Result @typedef {import('./pace.js').Steps<Result>} Steps */
 /** @typedef {import('./space.js').Place} Place */
 /** @typedef {import('./scene.js').Scene} Scene */
+/** @typedef {import('./decode-picture.js').Pixels} Pixels */
 
 /** Longest file name in a note. */
 const SHOWN = 40;
@@ -19,6 +23,9 @@ const DEEPEST = 4;
 
 /** Most different images of a drawing. */
 const MOST_IMAGES = 256;
+
+/** Values of `image-rendering` that show the squares of pixels (CSS Images 3, 6.1; older browsers' own; SVG 1.1). */
+const SQUARES = new Set(['pixelated', 'crisp-edges', '-moz-crisp-edges', 'optimizespeed']);
 
 /**
  * Paint an image at a place with its own style, or note why not.
@@ -31,15 +38,24 @@ const MOST_IMAGES = 256;
 export function* paintImage(scene, element, place, painter) {
   const link = (scene.engine.link(element) ?? '').trim();
   if (!link || place.style.get('visibility') !== 'visible' || isFlat(place.space)) return;
-  const inner = yield* embeddedScene(scene, link);
-  if (typeof inner === 'string') return scene.report.leftOut(inner);
-  const [width, height] = ownSize((name) => inner.engine.attribute(inner.root, name));
+  const found = yield* embeddedImage(scene, link);
+  if (typeof found === 'string') return scene.report.leftOut(found);
+  const [width, height] = 'rgba' in found ? [found.columns, found.rows] : ownSize((name) => found.engine.attribute(found.root, name));
   const sides = imageSides(place, [width, height]);
   if (Math.min(sides[2], sides[3], width, height) < THINNEST) return;
   const fit = scene.fit(element, [0, 0, width, height], sides[2], sides[3]);
   const content = multiply(translate(IDENTITY, sides[0], sides[1]), fit);
   const visible = ['visible', 'auto'].includes(place.style.get('overflow')) ? null : sides;
-  yield* paintEmbedded(scene, inner, within({ visible, content, size: [width, height] }, place), painter);
+  const inner = within({ visible, content, size: [width, height] }, place);
+  yield* 'rgba' in found ? paintPixels(found, inner, painter) : paintEmbedded(scene, found, inner, painter);
+}
+
+/** @param {Pixels} pixels @param {Place} place in units of pixels @param {import('./painter.js').Painter} painter */
+function* paintPixels(pixels, place, painter) {
+  const isSquares = SQUARES.has(place.style.get('image-rendering').toLowerCase());
+  const toPixels = rowsOf(inverse(place.space.whole));
+  const paint = paintOfPicture({ toPixels, pixels, sampling: isSquares ? 0 : 1, opacity: 1 });
+  yield* painter.add([loopOf(rectangle(0, 0, pixels.columns, pixels.rows))], place, 0, paint, place.name);
 }
 
 /**
@@ -58,35 +74,56 @@ export function imageSides({ style, view }, size) {
   return [x ?? 0, y ?? 0, width, tall ?? width / ratio];
 }
 
-/** @param {Scene} scene @param {string} link @returns {Steps<Scene | string>} the scene of a drawing, or the text of a note */
-function* embeddedScene(scene, link) {
+/** @param {Scene} scene @param {string} link @returns {Steps<Scene | Pixels | string>} a drawing, a picture, or the text of a note */
+function* embeddedImage(scene, link) {
   let found = scene.images.get(link);
   if (found === undefined) scene.images.set(link, (found = yield* openImage(scene, link)));
   return found;
 }
 
-/** @param {Scene} scene @param {string} link @returns {Steps<Scene | string>} */
+/** @param {Scene} scene @param {string} link @returns {Steps<Scene | Pixels | string>} */
 function* openImage(scene, link) {
   if (link.slice(0, 5).toLowerCase() !== 'data:') return `image '${nameOf(link)}' (nothing is fetched from an address)`;
   if (scene.images.size >= MOST_IMAGES) return `an embedded image (the drawing has more than ${MOST_IMAGES} images)`;
-  if (!/^data:image\/svg\+xml[;,]/i.test(link)) return 'an embedded image';
-  if (scene.depth >= DEEPEST) return `an embedded image (drawings in it are nested more than ${DEEPEST} deep)`;
+  let label = 'an embedded image';
   try {
-    return scene.inside(yield* scene.engine.open(decodeData(link), scene.pace));
+    const bytes = decodeData(link);
+    const size = pictureSize(bytes);
+    if (!size) return yield* openDrawing(scene, new TextDecoder().decode(bytes));
+    label = `an embedded ${size.format} of ${size.columns} x ${size.rows}`;
+    return yield* decoded(bytes, label);
   } catch (error) {
-    if (error instanceof VextureError && !(error instanceof OvertimeError)) return `an embedded image (${error.message})`;
+    if (error instanceof VextureError && !(error instanceof OvertimeError)) return `${label} (${error.message})`;
     throw error;
   }
 }
 
-/** @param {string} link a data: URL @returns {string} its text */
+/** @param {Scene} scene @param {string} text @returns {Steps<Scene>} */
+function* openDrawing(scene, text) {
+  if (!text.trimStart().startsWith('<')) throw new VextureError(text.trim() ? NO_IMAGE : 'it is empty', 'href');
+  if (scene.depth >= DEEPEST) throw new VextureError(`drawings in it are nested more than ${DEEPEST} deep`, 'href');
+  return scene.inside(yield* scene.engine.open(text, scene.pace));
+}
+
+/** @param {Uint8Array} bytes @param {string} label @returns {Steps<Pixels>} */
+function* decoded(bytes, label) {
+  /** @type {Pixels | null} */
+  let pixels = null;
+  /** @type {unknown} */
+  let fault = null;
+  yield decodePicture(bytes, label).then((found) => void (pixels = found), (error) => void (fault = error));
+  if (fault) throw fault;
+  return /** @type {Pixels} */ (/** @type {unknown} */ (pixels));
+}
+
+/** @param {string} link a data: URL @returns {Uint8Array} */
 function decodeData(link) {
   const [, head, body] = /^([^,]*),([^#]*)/s.exec(link) ?? [];
   if (body === undefined) throw new VextureError('its data: URL has no data', 'href');
   const latin = body.replace(/%([\da-f]{2})/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
   try {
     const bytes = head.toLowerCase().endsWith(';base64') ? atob(latin.replace(/\s/g, '')) : unescapedBytes(latin);
-    return new TextDecoder().decode(Uint8Array.from(bytes, (letter) => letter.charCodeAt(0)));
+    return Uint8Array.from(bytes, (letter) => letter.charCodeAt(0));
   } catch {
     throw new VextureError('its data is no base64', 'href');
   }

@@ -6,10 +6,12 @@
 import { VextureError, givenOptions, line, unfit } from '../errors.js';
 import { loadMaps, mapParts } from '../maps.js';
 import { Converter } from './converter.js';
+import { pictureSize } from './decode-picture.js';
 import { describeContent } from './file-kinds.js';
 import { Pace } from './pace.js';
+import { readPicture } from './read-picture.js';
 import { readPacedGeojson } from './read-geojson.js';
-import { loadMarkup } from './source.js';
+import { loadContent, textOf } from './source.js';
 import { svgDrawing } from './svg.js';
 
 export { VextureError } from '../errors.js';
@@ -49,7 +51,7 @@ export { writePacked } from './write-packed.js';
 
 /**
  * @typedef {string | URL | Blob | ArrayBuffer | Uint8Array | SVGElement | Drawing | object} Source What can be converted: the
- *   text of an SVG, GeoJSON or TopoJSON, or its address; a file; an element of the page; parsed GeoJSON; a drawing that
+ *   text of an SVG, GeoJSON or TopoJSON, or its address; a file, of a picture, too; an element of the page; parsed GeoJSON; a drawing that
  *   `readSvg`, `readGeojson` or `fromContours` has made
  *
  * @typedef {object} ConvertOptions Options of a conversion; those with a counterpart in Python's `vexture.convert` mean the same.
@@ -175,10 +177,12 @@ async function read(source, options) {
     if (typeof source === 'object' && source !== null) return readPacedGeojson(source, options, options.pace);
     throw unfit('source', source, 'give an SVG or GeoJSON as a text, address, file or element');
   }
-  const text = isMarkup ? source : await loadMarkup(isPlace ? placeOf(source) : source, options);
+  const content = isMarkup ? source : await loadContent(isPlace ? placeOf(source) : source, options);
   const stem = isPlace ? stemOf(String(source)) : typeof File === 'function' && source instanceof File ? stemOf(source.name) : undefined;
-  const start = text.replace(/^\ufeff/, '').trimStart()[0];
   const named = { ...options, name: name ?? stem };
+  if (typeof content !== 'string' && pictureSize(content)) return readPicture(content, named.name);
+  const text = textOf(content);
+  const start = text.replace(/^\ufeff/, '').trimStart()[0];
   if (start === '<') return readNamed(text, named);
   if (start === '{') return readPacedGeojson(text, named, named.pace);
   const file = typeof File === 'function' && source instanceof File ? line(source.name) : stem ?? 'the source';

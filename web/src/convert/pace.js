@@ -2,10 +2,10 @@
 import { VextureError, line } from '../errors.js';
 
 /**
- * Work in steps: it pauses where the page is due a turn.
+ * Work in steps: it pauses where the page is due a turn, or where it waits for what it yields.
  *
  * @template Result
- * @typedef {Generator<undefined, Result, undefined>} Steps
+ * @typedef {Generator<Promise<void> | undefined, Result, undefined>} Steps
  */
 
 /**
@@ -61,7 +61,7 @@ export class Pace {
     for (;;) {
       const { done, value } = this.#slice(steps);
       if (done) return /** @type {Result} */ (value);
-      await turn();
+      await (value ?? turn());
       this.#signal?.throwIfAborted();
     }
   }
@@ -78,7 +78,7 @@ export class Pace {
 }
 
 /**
- * Do all of some work at once, without turns.
+ * Do all of some work at once, without turns; it must not wait for anything.
  *
  * @template Result
  * @param {Steps<Result>} steps

@@ -7,11 +7,21 @@ import { checkOutcome, limitsOf, outlinesOf, overtime, workOf } from './silhouet
 /** @import { Bounds, Sheet } from './conversion.js' */
 /** @import { Drawing, Group, Paint, Path } from './drawing.js' */
 /** @import { Kernels } from './kernels.js' */
-/** @import { Gradient } from './paints.js' */
+/** @import { Pixels } from './decode-picture.js' */
 /** @import { Style } from '../style.js' */
 
 /** Decimals of the colours of a style. */
 const DIGITS = 1e6;
+
+/** In the row of a picture, in place of a gradient's focal point. */
+const PICTURE = -2;
+
+/** Words of a picture before its pixels, and place of the number of rows in the first. */
+const PICTURE_HEAD = 2;
+const SIDE_BITS = 16;
+
+/** Numbers of a stop. */
+const STOP_COLUMNS = 5;
 
 /** Names of masks in a style. @type {readonly ['none', 'opacity', 'luminance']} */
 const MASKS = ['none', 'opacity', 'luminance'];
@@ -65,22 +75,65 @@ function checkReach(name, reach) {
  */
 function sourceOf({ paths, groups }, elements) {
   const { cubics, lengths, path, rules } = outlinesOf(paths);
-  /** @type {Gradient[]} */
-  const gradients = [];
-  const columns = paths.flatMap(({ paint, group }, k) => [group, paint.gradient ? gradients.push(paint.gradient) - 1 : -1, elements?.[k] ?? 0, 0]);
+  const { numbers, ...shades } = shadesOf(paths);
+  const columns = paths.flatMap(({ group }, k) => [group, numbers[k], elements?.[k] ?? 0, 0]);
   const rgba = paths.flatMap(({ paint: { color, opacity } }) => [...color, opacity]);
-  let stop = 0;
-  const ramps = gradients.flatMap(({ toRamp, focus, spread, stops }) => {
-    stop += stops.length;
-    return [...toRamp.flat(), ...(focus ?? [-1, -1]), spread, stop - stops.length, stops.length];
-  });
-  const stops = gradients.flatMap((gradient) => gradient.stops.flatMap(({ color, opacity, offset }) => [...color, opacity, offset]));
   return [
     cubics, lengths, path, rules, columns, rgba,
     groups.flatMap(({ outer, blend, mask }) => [outer, blend, mask]),
     groups.map(({ opacity }) => opacity),
-    ramps, stops,
+    shades.rows, shades.stops, shades.words,
   ];
+}
+
+/**
+ * The gradients and pictures of paths as the arrays of Python's `Shades`, and the number of each path's; -1 if it has none.
+ *
+ * @param {readonly Path[]} paths
+ */
+function shadesOf(paths) {
+  /** @type {number[]} */
+  const rows = [];
+  /** @type {number[]} */
+  const stops = [];
+  const { begins, words } = listPixels(paths);
+  let count = 0;
+  const numbers = paths.map(({ paint: { gradient, picture } }) => {
+    if (gradient) {
+      const { toRamp, focus, spread } = gradient;
+      rows.push(...toRamp.flat(), ...(focus ?? [-1, -1]), spread, stops.length / STOP_COLUMNS, gradient.stops.length);
+      for (const { color, opacity, offset } of gradient.stops) stops.push(...color, opacity, offset);
+    } else if (picture) {
+      rows.push(...picture.toPixels.flat(), PICTURE, picture.opacity, picture.sampling, begins.get(picture.pixels) ?? 0, 0);
+    }
+    return gradient || picture ? count++ : -1;
+  });
+  return { rows, stops, words, numbers };
+}
+
+/**
+ * The words of all pictures, each of size, whether it is opaque, and pixels; and where those of each begin.
+ *
+ * @param {readonly Path[]} paths
+ */
+function listPixels(paths) {
+  /** @type {Map<Pixels, number>} */
+  const begins = new Map();
+  let end = 0;
+  for (const { paint: { picture } } of paths) {
+    if (!picture || begins.has(picture.pixels)) continue;
+    begins.set(picture.pixels, end);
+    end += PICTURE_HEAD + picture.pixels.rgba.length / 4;
+  }
+  const words = new Uint32Array(end);
+  for (const [{ columns, rows, rgba }, begin] of begins) {
+    const pixels = words.subarray(begin + PICTURE_HEAD, begin + PICTURE_HEAD + columns * rows);
+    for (let k = 0; k < pixels.length; k++) {
+      pixels[k] = rgba[4 * k] | (rgba[4 * k + 1] << 8) | (rgba[4 * k + 2] << 16) | (rgba[4 * k + 3] << 24);
+    }
+    words.set([columns | (rows << SIDE_BITS), Number(pixels.every((word) => word >>> 24 === 255))], begin);
+  }
+  return { begins, words };
 }
 
 /**

@@ -3,6 +3,7 @@ import { IDENTITY } from './affine.js';
 import { isRelative, lengthOf } from './lengths.js';
 import { Pace } from './pace.js';
 import { fadePaint } from './paints.js';
+import { fitPictures } from './picture-budget.js';
 import { Scene } from './scene.js';
 import { inUnitSquare, toUserUnits } from './unit-square.js';
 import { dropEmptyGroups } from './veils.js';
@@ -39,7 +40,7 @@ export function* readSvg(engine, { name = 'drawing', strokeOutline, pace = new P
   if (!frame) return { name, paths: [], groups: [], toSource: IDENTITY, sides: [1, 1], notes: scene.report.inOrder };
   const painted = yield* scene.paint(frame.view, frame.content, frame.size, fadePaint);
   const normal = yield* inUnitSquare(painted.paths, frame.size, pace);
-  const { paths, groups } = dropEmptyGroups(normal.paths, painted.groups);
+  const { paths, groups } = dropEmptyGroups(fitPictures(normal.paths, scene.report), painted.groups);
   if (!paths.length) scene.report.remark(UNPAINTED);
   const toSource = toUserUnits(normal.toSource, frame.content);
   return { name, paths, groups, toSource, sides: normal.sides, notes: scene.report.inOrder };

@@ -53,7 +53,7 @@ export class Scene {
     this.shown = new Map();
     /** Larger side of the drawing. */
     this.size = 1;
-    /** Scenes of its images, or the texts of notes, by link. @type {Map<string, Scene | string>} */
+    /** Scenes and pixels of its images, or the texts of notes, by link. @type {Map<string, Scene | import('./decode-picture.js').Pixels | string>} */
     this.images = new Map();
     /** Number of drawings in whose images it is. */
     this.depth = 0;

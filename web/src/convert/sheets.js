@@ -1,4 +1,5 @@
 // The sheets of a drawing in its colours: planar maps, which are drawn over one another if one would need too many texels.
+import { isVaried } from './paints.js';
 import { isColoured, hexOf, layersOf } from './split.js';
 import { silhouetteOf } from './silhouette.js';
 import { mapOf } from './planar-map.js';
@@ -86,7 +87,7 @@ function withinBudget({ maps, silhouettes }, drawing, bounds, restyle) {
   const attempt = (/** @type {number} */ start, /** @type {number} */ end, /** @type {number} */ first) => {
     const part = items.length === end - start ? drawing : { ...drawing, paths: items.slice(start, end).flat() };
     const [path] = part.paths;
-    const isLayer = end === start + 1 && part.paths.length === 1 && path.group < 0 && path.paint.gradient === null;
+    const isLayer = end === start + 1 && part.paths.length === 1 && path.group < 0 && !isVaried(path.paint);
     if (isLayer && !restyle) return { drawing: part, texels: silhouetteOf(silhouettes, part, bounds, first), isMap: false };
     const share = end > start + 1 ? Math.floor((budget * (end - start)) / items.length) : Infinity;
     return mapOf(maps, part, bounds, { restyle, first, mostTexels: share });

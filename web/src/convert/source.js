@@ -1,4 +1,4 @@
-// The markup of a source: text, bytes, a file, or an address, plain or gzipped.
+// The content of a source: text, bytes, a file, or an address, plain or gzipped.
 import { VextureError, line, unfit } from '../errors.js';
 import { LONGEST } from './parse.js';
 
@@ -6,28 +6,40 @@ import { LONGEST } from './parse.js';
 const WIDE = /^(?:utf-?(?:16|32)|(?:iso-10646-)?ucs-?[24])/i;
 
 /**
- * Load the markup of an SVG.
+ * Load the markup of an SVG, as `loadContent` does.
  *
- * @param {string | Blob | ArrayBuffer | Uint8Array | URL | Response} source a text is markup, not an address
+ * @param {Parameters<typeof loadContent>[0]} source
  * @param {{ signal?: AbortSignal }} [options]
  * @returns {Promise<string>}
  * @throws {VextureError} if it cannot be fetched, or is too large
  */
-export async function loadMarkup(source, { signal } = {}) {
+export async function loadMarkup(source, options) {
+  return textOf(await loadContent(source, options));
+}
+
+/**
+ * Load the content of a file.
+ *
+ * @param {string | Blob | ArrayBuffer | Uint8Array | URL | Response} source a text is markup, not an address
+ * @param {{ signal?: AbortSignal }} [options]
+ * @returns {Promise<string | Uint8Array<ArrayBuffer>>} text only if it is given
+ * @throws {VextureError} if it cannot be fetched, or is too large
+ */
+export async function loadContent(source, { signal } = {}) {
   if (typeof source === 'string') return source;
   if (source instanceof URL) {
-    return loadMarkup(await load(source, signal)).catch((error) => {
+    return loadContent(await load(source, signal)).catch((error) => {
       signal?.throwIfAborted(); // its reason, not that the file has no end
       throw error;
     });
   }
   if (source instanceof Response) {
     if (!source.ok) throw new VextureError(`${line(source.url)} answers ${source.status}; check the address`, 'source');
-    return textOf(source.body ?? new Blob().stream());
+    return unpacked(source.body ?? new Blob().stream());
   }
-  if (source instanceof Blob) return textOf(source.stream());
+  if (source instanceof Blob) return unpacked(source.stream());
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) {
-    return textOf(new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (source)]).stream());
+    return unpacked(new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (source)]).stream());
   }
   throw unfit('source', source, 'give the text of an SVG, a Blob, a URL, or an <svg> of the page');
 }
@@ -45,12 +57,16 @@ async function load(url, signal) {
   }
 }
 
-/** @param {ReadableStream<Uint8Array<ArrayBuffer>>} stream @returns {Promise<string>} */
-async function textOf(stream) {
+/** @param {ReadableStream<Uint8Array<ArrayBuffer>>} stream @returns {Promise<Uint8Array<ArrayBuffer>>} */
+async function unpacked(stream) {
   const bytes = await collect(stream);
   const isPacked = bytes[0] === 0x1f && bytes[1] === 0x8b;
-  const plain = isPacked ? await collect(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))) : bytes;
-  return new TextDecoder(encodingOf(plain)).decode(plain);
+  return isPacked ? collect(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))) : bytes;
+}
+
+/** @param {string | Uint8Array} content of a file of text @returns {string} */
+export function textOf(content) {
+  return typeof content === 'string' ? content : new TextDecoder(encodingOf(content)).decode(content);
 }
 
 /** @param {ReadableStream<Uint8Array<ArrayBuffer>>} stream @returns {Promise<Uint8Array<ArrayBuffer>>} */

@@ -1,5 +1,6 @@
 // Splits a drawing into the shapes of its texture: faces in its colours, layers of one paint each, or a silhouette.
 import { VextureError, line } from '../errors.js';
+import { isVaried } from './paints.js';
 
 /** @import { Drawing, Group, Paint, Path } from './drawing.js' */
 /** @import { Note } from './notes.js' */
@@ -43,7 +44,7 @@ export function splitOf(drawing, split, restyle) {
  */
 export function isColoured({ paths, groups }) {
   const first = paths.length ? keyOf(paths[0].paint) : '';
-  return groups.length > 0 || paths.some(({ paint }) => paint.gradient !== null || keyOf(paint) !== first);
+  return groups.length > 0 || paths.some(({ paint }) => isVaried(paint) || keyOf(paint) !== first);
 }
 
 /**
@@ -56,7 +57,7 @@ export function isColoured({ paths, groups }) {
  * @returns {Drawing[]} in painting order, each with one paint, named `name/number-colour`
  */
 export function layersOf(drawing) {
-  if (drawing.groups.length || drawing.paths.some(({ paint }) => paint.gradient !== null)) return layersOf(flattened(drawing));
+  if (drawing.groups.length || drawing.paths.some(({ paint }) => isVaried(paint))) return layersOf(flattened(drawing));
   const { paths, name } = drawing;
   const boxes = paths.map(boxOf);
   /** @type {number[]} */
@@ -92,9 +93,9 @@ export function withoutMasks(drawing) {
  * @returns {Drawing}
  */
 export function withoutGradients(drawing) {
-  const shaded = drawing.paths.filter(({ paint }) => paint.gradient !== null).length;
+  const shaded = drawing.paths.filter(({ paint }) => isVaried(paint)).length;
   if (!shaded) return drawing;
-  const paths = drawing.paths.map((path) => ({ ...path, paint: { ...path.paint, gradient: null } }));
+  const paths = drawing.paths.map((path) => ({ ...path, paint: { ...path.paint, gradient: null, picture: null } }));
   return { ...drawing, paths, notes: [...drawing.notes, { kind: 'simplified', message: SHADED, count: shaded }] };
 }
 
@@ -144,14 +145,14 @@ function lossesOf({ groups, paths }) {
     [BLENDING, count(({ blend }, size) => Boolean(blend) && size > 0)],
     [MASKING, count(({ mask }) => Boolean(mask)) - patterns],
     [SOLID, patterns],
-    [SHADED, paths.filter(({ paint }) => paint.gradient !== null).length],
+    [SHADED, paths.filter(({ paint }) => isVaried(paint)).length],
   ];
   return losses.filter(([, number]) => number > 0).map(([message, number]) => ({ kind: 'simplified', message, count: number }));
 }
 
 /** @param {Paint} paint */
-function keyOf({ color, opacity, gradient }) {
-  return gradient === null ? `${color} ${opacity}` : JSON.stringify({ color, opacity, gradient });
+function keyOf({ color, opacity, gradient, picture }) {
+  return gradient === null && !picture ? `${color} ${opacity}` : JSON.stringify({ color, opacity, gradient });
 }
 
 /**

@@ -4,7 +4,7 @@ import { IDENTITY, inverse, isIdentity, multiply, stretch } from './affine.js';
 import { writeLine } from './arcs.js';
 import { clipContour } from './clip.js';
 import { boundsOf, countOf, isStraight, mapPoints, withoutPoints } from './contours.js';
-import { movePaint } from './paints.js';
+import { isVaried, movePaint } from './paints.js';
 import { Veil } from './veils.js';
 
 /** @typedef {import('./contours.js').Bounds} Bounds */
@@ -138,7 +138,7 @@ export class PatternTiles {
   /** @param {Path} path @returns {[number, number]} numbers of cubics and of gradients that `repeat` makes of it */
   cost(path) {
     const [columns, rows] = [this.last[0] - this.first[0], this.last[1] - this.first[1]];
-    if (path.paint.gradient) return [columns * rows * countOf(path.contours), columns * rows];
+    if (isVaried(path.paint)) return [columns * rows * countOf(path.contours), columns * rows];
     const counts = path.contours.map((contour) => {
       const [across, down] = spans(this.tile, contour);
       return (contour.length / 8) * (across ? 1 : columns) * (down ? 1 : rows);
@@ -148,7 +148,7 @@ export class PatternTiles {
 
   /** @param {Path} path of the first tile @returns {Path[]} it in all tiles */
   repeat(path) {
-    if (path.paint.gradient) return [...this.places(false, false)].flatMap((at) => this.gradientTile(path, at));
+    if (isVaried(path.paint)) return [...this.places(false, false)].flatMap((at) => this.gradientTile(path, at));
     const contours = path.contours.flatMap((contour) => {
       const [across, down] = spans(this.tile, contour);
       return [...this.places(across, down)].flatMap(([x, y]) => {

@@ -1,10 +1,8 @@
 // Writes a packed texture as a KTX 2.0 file (FORMAT.md, parts B and D; Khronos KTX File Format Specification, version 2.0).
 import {
   ENCODING_PACKED,
-  MAP_VERSION,
   MOST_STYLE_BYTES,
   MOST_TEXT_BYTES,
-  PACKED_VERSION,
   TEXT_ENCODING,
   TEXT_NAME,
   TEXT_ROOTS,
@@ -15,6 +13,7 @@ import {
 import { modeName } from '../blend.js';
 import { VextureError } from '../errors.js';
 import { FIXED, HEADER_BYTES, LENGTH_BYTES, LEVEL_BYTES, MAGIC, TEXEL_BYTES } from '../ktx2.js';
+import { versionOf } from '../read-roots.js';
 
 const WRITER = 'vexture';
 
@@ -80,7 +79,7 @@ export async function writePacked(data) {
 async function textsOf({ name, roots }) {
   const texts = {
     [TEXT_WRITER]: WRITER,
-    [TEXT_VERSION]: roots.some(({ isMap }) => isMap) ? MAP_VERSION : PACKED_VERSION,
+    [TEXT_VERSION]: versionOf(roots),
     [TEXT_ENCODING]: ENCODING_PACKED,
     [TEXT_NAME]: name,
   };

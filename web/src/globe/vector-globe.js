@@ -1,6 +1,7 @@
 import { CustomBlending, GLSL3, Group, Matrix4, Mesh, OneFactor, OneMinusSrcAlphaFactor, ShaderMaterial, Vector2, Vector3, Vector4 } from 'three';
 import { VextureError, line } from '../errors.js';
 import { prepareRows, sendRows } from '../rows.js';
+import { gradientsAmong } from '../select-root.js';
 import { keyOf } from '../tiles/grid.js';
 import { Pyramid } from '../tiles/pyramid.js';
 import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
@@ -39,7 +40,7 @@ void main() {
 /** Limit in CSS pixels, above the height of any screen, because a much greater height would request all tiles. */
 const MOST_HEIGHT = 16384;
 
-/** A tile's colour, which is of sRGB, as three.js's own materials give theirs to the screen or a target. @param {boolean} gradients */
+/** A tile's colour, which is of sRGB, as three.js's own materials give theirs to the screen or a target. @param {0 | 1 | 2} gradients */
 const fragment = (gradients) => `#include <logdepthbuf_pars_fragment>
 ${tileShader(gradients).replace('void main()', 'void tileMain()')}
 #define gl_FragColor tileColor
@@ -260,7 +261,7 @@ export class VectorGlobe extends Group {
     const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
     const group = new Group();
     const { base, rest, side, ends } = lookup(quad, loaded.tile, this.#pyramid.client?.source.margin ?? 0);
-    const fragmentShader = fragment(data.roots.some(({ hasGradients }) => hasGradients));
+    const fragmentShader = fragment(gradientsAmong(data.roots));
     data.roots.forEach((root, order) => {
       const uniforms = {
         vextureTexels: { value: this.#texture(loaded) },

@@ -1,5 +1,6 @@
 // Draws tiles directly with WebGL 2: programs, meshes, and textures of texels.
 import { VextureError, line } from '../errors.js';
+import { gradientsAmong } from '../select-root.js';
 import { lookup, paintOf, tileShader } from '../tiles/tile-shader.js';
 import { EXTENT, meshOf, quadMesh } from './quad-mesh.js';
 
@@ -72,7 +73,7 @@ export class TilePainter {
     const isMixed = shown.some(({ quad }) => quad.z !== shown[0].quad.z);
     for (const { quad, loaded } of shown) {
       const data = /** @type {import('../data.js').PackedData} */ (loaded.data);
-      const { program, at } = this.#program(render.shaderData, data.roots.some(({ hasGradients }) => hasGradients));
+      const { program, at } = this.#program(render.shaderData, gradientsAmong(data.roots));
       gl.useProgram(program);
       setProjection(gl, at, render, quad);
       gl.activeTexture(gl.TEXTURE0);
@@ -139,7 +140,7 @@ export class TilePainter {
 
   /**
    * @param {Render['shaderData']} shaderData
-   * @param {boolean} gradients
+   * @param {0 | 1 | 2} gradients
    */
   #program(shaderData, gradients) {
     const key = `${shaderData.variantName} ${gradients}`;

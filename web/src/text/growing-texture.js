@@ -155,5 +155,5 @@ function writeRow(rows, place, { quad, box: [width, height], isMap }) {
 
 /** @param {AddedShape} shape @returns {Root} */
 const rootOf = ({ key, quad, isMap, hasGradients }) => ({
-  name: key, quad, transform: [1, 0, 0, 0, 1, 0], tolerance: 0, crs: null, paint: null, isMap, hasGradients, style: null,
+  name: key, quad, transform: [1, 0, 0, 0, 1, 0], tolerance: 0, crs: null, paint: null, isMap, hasGradients, hasPictures: false, style: null,
 });

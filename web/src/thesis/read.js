@@ -70,7 +70,7 @@ export async function readThesis(quadsPng, curvesPng, name = 'texture') {
       quads: quads.pixels,
       curves: curves.pixels,
       levels: 0,
-      roots: [{ name, quad: 0, transform, tolerance: 0, crs, paint: null, isMap: false, hasGradients: false, style: null }],
+      roots: [{ name, quad: 0, transform, tolerance: 0, crs, paint: null, isMap: false, hasGradients: false, hasPictures: false, style: null }],
     };
     data.levels = checkTree(data);
     checkPixels(data);

@@ -17,7 +17,7 @@ const planar = withMaps(async () => (await import('../../generated/planar-shader
  * The text without its first line, the version. A footprint that is half outside the grid would see half of what is there: it
  * is moved to lie within.
  *
- * @param {boolean} gradients whether a map holds gradients
+ * @param {0 | 1 | 2} gradients whether maps hold gradients (1) or pictures as well (2)
  */
 export const tileShader = (gradients) => `precision highp float;
 precision highp int;
@@ -25,7 +25,7 @@ precision highp usampler2D;
 #define VEXTURE_FLAT 0
 #define VEXTURE_LINEAR 0
 #define VEXTURE_WRAP ${WRAPS.none}
-#define VEXTURE_GRADIENTS ${Number(gradients)}
+#define VEXTURE_GRADIENTS ${gradients}
 ${steps}${packed}${planar()}
 uniform uint tileRoot;
 uniform uvec2 tileBase;

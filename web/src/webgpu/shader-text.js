@@ -7,7 +7,7 @@ import { withMaps } from '../maps.js';
 /**
  * @typedef {object} NodeVariant All that makes one text differ from another.
  * @property {boolean} colours whether it reads planar maps
- * @property {boolean} gradients whether a map holds gradients
+ * @property {0 | 1 | 2} gradients whether maps hold gradients (1) or pictures as well (2)
  * @property {boolean} linear whether colours are averaged in linear light
  * @property {'none' | 'clamp' | 'repeat'} wrap
  * @property {boolean} flat
@@ -55,7 +55,7 @@ function chosen(text, numbers) {
  * @param {NodeVariant} variant
  */
 export function endingOf({ colours, gradients, linear, wrap, flat, fold: folds }) {
-  const bits = [colours, gradients, linear, flat, folds].reduce((sum, bit) => 2 * sum + Number(bit), 0);
+  const bits = [gradients === 2, colours, gradients > 0, linear, flat, folds].reduce((sum, bit) => 2 * sum + Number(bit), 0);
   return `_${WRAPS[wrap]}${bits.toString(36)}`;
 }
 
@@ -67,7 +67,7 @@ export function endingOf({ colours, gradients, linear, wrap, flat, fold: folds }
 export function shaderText(variant, language) {
   const numbers = {
     VEXTURE_FLAT: Number(variant.flat),
-    VEXTURE_GRADIENTS: Number(variant.gradients),
+    VEXTURE_GRADIENTS: variant.gradients,
     VEXTURE_LINEAR: Number(variant.linear),
     VEXTURE_WRAP: WRAPS[variant.wrap],
   };

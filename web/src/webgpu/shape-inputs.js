@@ -1,6 +1,6 @@
 // What a node of a shape reads, as nodes that follow what they stand for.
 import { nodeObject, texture as textureNode, uniform, vec2 } from 'three/tsl';
-import { mapsAmong, mapsOfGlyphs } from '../select-root.js';
+import { gradientsAmong, mapsAmong, mapsOfGlyphs } from '../select-root.js';
 import { ShapeNode } from './shape-node.js';
 
 /** @typedef {import('../vector-texture.js').VectorTexture} VectorTexture */
@@ -68,7 +68,7 @@ export function nodeVariant(texture, { instance, wrap = 'none', flat = false, li
   const colours = maps !== 'none';
   const variant = {
     colours,
-    gradients: colours && shown.some(({ hasGradients }) => hasGradients),
+    gradients: colours ? gradientsAmong(shown) : 0,
     linear: colours && isAlone && linear, // layers are composited in sRGB, as in browsers
     wrap,
     flat: flat && !fold,

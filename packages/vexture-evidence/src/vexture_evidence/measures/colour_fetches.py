@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing
 from vexture.renderers import colour, cpu
 from vexture.renderers.cells import Texel
-from vexture.renderers.gpu import has_gradients
+from vexture.renderers.gpu import gradients_of
 from vexture.renderers.leaf import VextureLeaf
 from vexture.renderers.method import BORDER, COVERED
 from vexture.renderers.uniforms import Uniforms, uniforms_of
@@ -113,7 +113,7 @@ def _opacity(
 ) -> Callable[[int, tuple[float, float]], float]:
     """The opacity of a map or layer, by its number, at a pixel; adds the texels that are read to `found`."""
     maps = [root.quad for root in texture.roots if root.is_map]
-    is_plain = not any(has_gradients(texture, quad) for quad in maps)
+    is_plain = not any(gradients_of(texture, quad) for quad in maps)
 
     def adding(texels: int) -> Callable[..., None]:
         def note(*_: Any) -> None:

@@ -6,7 +6,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.renderers.gpu import has_gradients
+from vexture.renderers.gpu import gradients_of
 from vexture.renderers.shader import WRAPS, shader_text
 from vexture.texture.texture import Texture
 from vexture_evidence.measures.colour_fetches import SheetStack
@@ -27,33 +27,33 @@ COLOR_MAIN: Final = MAIN.replace("float coverage_of_pixel", "vec4 coverage_of_pi
 INPUTS: Final = "uniform uint root;\nuniform int count;\nuniform uvec2 base;\n"
 
 
-def source(file: str, call: str, *, is_flat: bool, has_gradients: bool = False) -> str:
+def source(file: str, call: str, *, is_flat: bool, gradients: int = 0) -> str:
     """Fragment shader that draws an expression of uv, dx and dy in four channels."""
-    chosen = {"WRAP": WRAPS["none"], "FLAT": int(is_flat), "LINEAR": 0, "GRADIENTS": int(has_gradients)}
+    chosen = {"WRAP": WRAPS["none"], "FLAT": int(is_flat), "LINEAR": 0, "GRADIENTS": gradients}
     lines = "".join(f"#define VEXTURE_{name} {value}\n" for name, value in chosen.items())
     # 16-bit halves of words, which OpenGL has from 4.2 on and WebGL2 always
     first = f"#version {VERSION}\n#extension GL_ARB_shading_language_packing : require\n"
     return first + lines + shader_text(file) + INPUTS + COLOR_MAIN.replace("CALL", call)
 
 
-def map_source(*, is_flat: bool, has_gradients: bool) -> str:
+def map_source(*, is_flat: bool, gradients: int) -> str:
     """Fragment shader of one planar map."""
     call = "vextureWrappedColor(root, base, uv, dx, dy)"
-    return source("sheets.glsl", call, is_flat=is_flat, has_gradients=has_gradients)
+    return source("sheets.glsl", call, is_flat=is_flat, gradients=gradients)
 
 
 def sheets_program(sheets: SheetStack, *, is_flat: bool) -> Program:
     """Program that draws one map, layers, or several maps and layers."""
     texture, count = sheets.texture, len(sheets.texture.roots)
     maps = [root.quad for root in texture.roots if root.is_map]
-    shaded = any(has_gradients(texture, quad) for quad in maps)
+    gradients = max((gradients_of(texture, quad) for quad in maps), default=0)
     textures: dict[str, Any] = {"vextureTexels": nearest(texture.texels, "u4")}
     if count == 1 and maps:
-        text = map_source(is_flat=is_flat, has_gradients=shaded)
+        text = map_source(is_flat=is_flat, gradients=gradients)
         return Program("map", {}, compile_shader(text), textures, {"root": maps[0]}, based=True)
     textures["vexturePaints"] = nearest(layers_image(sheets), "u4")
     file, name = ("sheets.glsl", "vextureSheets") if maps else ("layers.glsl", "vextureLayers")
-    text = source(file, f"{name}(0, count, base, uv, dx, dy)", is_flat=is_flat, has_gradients=shaded)
+    text = source(file, f"{name}(0, count, base, uv, dx, dy)", is_flat=is_flat, gradients=gradients)
     return Program(name, {}, compile_shader(text), textures, {"count": count}, based=True)
 
 

@@ -137,11 +137,14 @@ def _layers(
     sources: tuple[Path, ...], contents: list[bytes | None], symbol: Path | None, options: dict[str, Any]
 ) -> "list[MapLayer]":
     """Make the layers that options describe."""
-    from vexture.conversion.reading import read
+    from vexture.base.notes import warn_of
+    from vexture.conversion.reading import read_drawing
     from vexture_geo.maps import MapLayer, Times
 
     count = len(sources)
-    drawn = None if symbol is None else read(symbol)
+    drawn = None if symbol is None else read_drawing(symbol, for_outlines=True)
+    if drawn is not None:
+        warn_of(str(symbol), drawn.notes)
     each = {name: _each(options[name], count, name) for name in ("layer", "where", "source_crs", "columns", "color")}
     each |= {name: _each(options[name], count, name) for name in ("ids", "time", "fill", "order")}
     each |= {name: _each(options[name], count, name) for name in ("stroke", "outline", "outline_width")}

@@ -29,7 +29,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 ABOVE = {
     *("cli", "conversion", "fold", "fonts", "gltf", "notebook", "pages", "server", "svg", "tracing"),
-    *("base/apart.py", "base/content.py", "base/labels.py"),
+    *("base/apart.py", "base/content.py", "base/labels.py", "base/pixels.py"),
 }
 """Folders and modules whose changes need no recompilation: they hold neither kernels nor constants of kernels."""
 

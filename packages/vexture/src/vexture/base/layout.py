@@ -34,6 +34,9 @@ MAP_HEAD: Final = 2
 MAP_VERSION: Final = "2"
 """Format version of a texture with planar maps."""
 
+PICTURE_VERSION: Final = "3"
+"""Format version of a texture with pictures."""
+
 PACKED_SUFFIX: Final = ".ktx2"
 """File suffix of a packed texture."""
 
@@ -96,9 +99,12 @@ MOST_PROGRAM: Final = 64
 KIND_SHIFT: Final = 29
 """Position of the kind of operation in the last word of a program's texel."""
 
-KIND_SOLID, KIND_LINEAR, KIND_RADIAL, KIND_FOCAL, KIND_KEEP, KIND_MIX, KIND_FOLLOWS = range(1, 8)
-"""Kinds of operations: a colour; linear, radial and focal gradients; the begin and end of a group; a further texel of
-a gradient."""
+KIND_PICTURE, KIND_SOLID, KIND_LINEAR, KIND_RADIAL, KIND_FOCAL, KIND_KEEP, KIND_MIX, KIND_FOLLOWS = range(8)
+"""Kinds of operations: a picture; a colour; linear, radial and focal gradients; the begin and end of a group; a further
+texel of a picture or gradient."""
+
+MOST_PICTURE_SIDE: Final = 1 << 14
+"""Most columns or rows of a picture."""
 
 HOLDS_PROGRAM: Final = 4
 """Added to the cell byte of a planar map's leaf if one of its paints is a program."""

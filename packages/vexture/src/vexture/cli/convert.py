@@ -24,13 +24,13 @@ from vexture.cli.options import (
     as_given,
     check_output,
     font_option,
+    images_options,
     page_color_option,
     read_stream,
     shown_name,
     split_of,
     strict_option,
     tolerance_option,
-    trace_images_option,
     write_output,
 )
 from vexture.cli.result import (
@@ -56,7 +56,7 @@ BELONGS_TO: Final = {
     "names": DEFAULT,
     "snap": DEFAULT,
     "fonts": DEFAULT,
-    "trace_images": DEFAULT,
+    "images": DEFAULT,
     "page_colors": DEFAULT,
     "capacity": DEFAULT,
     "precision": DEFAULT,
@@ -117,7 +117,7 @@ Examples:
 )
 @font_option
 @page_color_option
-@trace_images_option
+@images_options
 @tolerance_option
 @click.option("--max-depth", metavar="D", type=int, help="Divide cells no further than this depth.  [default: 16]")
 @click.option("--capacity", metavar="N", type=int, help="Pieces in a leaf, 1 to 15.  [default: 8, in colours 12]")
@@ -162,7 +162,7 @@ def convert(
 ) -> None:
     """Convert drawings into textures.
 
-    A source is an SVG, GeoJSON, a picture to trace (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons in any
+    A source is an SVG, GeoJSON, a picture (PNG, JPEG, WebP, GIF, BMP), geographic data (polygons in any
     format that vexture map reads; depths in GeoTIFF, Esri grid, NetCDF or GRIB, at the first time step), a folder for
     the SVGs in it, or - for standard input.
     """
@@ -221,12 +221,13 @@ def options_of_convert(*names: str) -> Callable[[click.Command], click.Command]:
     """Append some of the options of `convert` to a command, without flags that the command has already."""
 
     def with_options(command: click.Command) -> click.Command:
-        known = {option.name: option for option in convert.params}
         taken = {flag for option in command.params for flag in option.opts}
         for name in names:
-            option = copy(known[name])
-            option.opts = [flag for flag in option.opts if flag not in taken]
-            command.params.append(option)
+            for known in convert.params:  # several flags may set one parameter
+                if known.name == name:
+                    option = copy(known)
+                    option.opts = [flag for flag in option.opts if flag not in taken]
+                    command.params.append(option)
         return command
 
     return with_options
@@ -314,8 +315,9 @@ def _convert_one(
         given: Drawing | Path = source
         if content is not None:
             parameters = dict(parameters)
-            reading = {name: parameters.pop(name) for name in READING if name in parameters}
-            given = read_drawing(content, name=shown_name(source), **reading)
+            reading: dict[str, Any] = {name: parameters.pop(name) for name in READING if name in parameters}
+            outlines = encoding != DEFAULT or parameters.get("split", "") is None
+            given = read_drawing(content, name=shown_name(source), for_outlines=outlines, **reading)
         if encoding == DEFAULT:
             done: Conversion[Any] = run(given, Parameters.from_mapping(parameters))
         else:

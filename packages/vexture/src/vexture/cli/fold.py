@@ -50,7 +50,7 @@ def fold(
             raise ParameterError(f"`picture` {picture}: pictures are PNG files; name one that ends in .png")
         if not output.is_dir() and output.suffix.lower() != PACKED_SUFFIX:
             raise ParameterError(f"`output` {output}: folds are KTX2 files; name one that ends in {FOLD_SUFFIX}")
-        shape = apart(partial(read_drawing, fonts=fonts or ()), drawing, name=str(drawing))
+        shape = apart(partial(read_drawing, fonts=fonts or (), for_outlines=True), drawing, name=str(drawing))
         result = fold_of_shore(shape, amplitude=amplitude, period=period, size=size)
         say_notes(drawing, (*shape.notes, *result.notes))
         target = output / (file_name(shape.name) + FOLD_SUFFIX) if output.is_dir() else output

@@ -43,7 +43,7 @@ class NumberPair(click.ParamType):  # type: ignore[type-arg]
 
 
 @options_of_convert(
-    *("select", "names", "fonts", "page_colors", "trace_images", "tolerance", "max_depth", "capacity", "precision"),
+    *("select", "names", "fonts", "page_colors", "images", "tolerance", "max_depth", "capacity", "precision"),
     *("restyle", "max_seconds", "strict", "quiet"),
 )
 @click.command(epilog=EXAMPLE)

@@ -22,6 +22,12 @@ NAMED_OTHERWISE = {"fonts": "font", "page_colors": "color", "characters": "chars
 """Parameters whose options have other names: options that are given once per entry of a list, and shortened ones."""
 
 
+IMAGE_FLAGS = {"trace": "--trace-images", "none": "--no-images"}
+"""Flags for the values of the parameter `images`."""
+
+IMAGES = re.compile(rf"`images` '?({'|'.join(IMAGE_FLAGS)})'?")
+"""Pattern of that parameter with its value in a message of the library."""
+
 OF_FLOODS = frozenset({"layer", "time_dim", "variable"})
 """Parameters of the flood commands: other commands read depths and areas, too, but have no options for these."""
 
@@ -38,6 +44,7 @@ def echo(line: str, *, err: bool = False) -> None:
 
 def as_options(message: str) -> str:
     """Replace the parameters in backticks in a message of the library by the options that set them."""
+    message = IMAGES.sub(lambda found: IMAGE_FLAGS[found[1]], message)
     return PARAMETER.sub(lambda found: option_of(found[1]), message)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from vexture.base.errors import DeviceError, ParameterError, SourceError
+from vexture.cli.messages import IMAGE_FLAGS
 
 if TYPE_CHECKING:
     from vexture.base.content import FileKind
@@ -191,12 +192,19 @@ strict_option = click.option(
 )
 
 
-trace_images_option = click.option(
-    "--trace-images",
-    is_flag=True,
-    default=None,
-    help="Trace the pictures in an SVG, and those in files beside it or below.",
-)
+def images_options(command: Callable[..., None]) -> Callable[..., None]:
+    """Add the flags for the treatment of pictures to a command."""
+    trace = click.option(
+        IMAGE_FLAGS["trace"],
+        "images",
+        flag_value="trace",
+        default=None,
+        help="Trace a picture, and the pictures in an SVG and in files beside it or below, instead of drawing them.",
+    )
+    leave_out = click.option(
+        IMAGE_FLAGS["none"], "images", flag_value="none", default=None, help="Leave out the pictures in an SVG."
+    )
+    return trace(leave_out(command))
 
 
 class NamedColour(ParamType):
@@ -231,7 +239,7 @@ def as_given(name: str, value: Any) -> str:
 
     Examples
     --------
-    >>> as_given("page_colors", {"--primary": "teal", "currentColor": "red"}), as_given("trace_images", True)
+    >>> as_given("page_colors", {"--primary": "teal", "currentColor": "red"}), as_given("restyle", True)
     (' --primary=teal', '')
     """
     if value is True:
@@ -263,7 +271,7 @@ def conversion_options(command: Callable[..., None]) -> Callable[..., None]:
         "--split", type=click.Choice(["paint"]), help="paint: show each colour as a layer, one over the other."
     )
     silhouette = click.option("--silhouette", is_flag=True, help=f"Show {SILHOUETTE_HELP}")
-    for option in (tolerance_option, precision, trace_images_option, page_color_option, font_option, select):
+    for option in (tolerance_option, precision, images_options, page_color_option, font_option, select):
         command = option(command)
     return split(silhouette(command))
 
@@ -275,14 +283,14 @@ def viewer_parameters(
     split: str | None,
     silhouette: bool,
     fonts: tuple[Path, ...] | None,
-    trace_images: bool | None,
+    images: str | None,
     page_colors: dict[str, str] | None,
 ) -> "Parameters":
     """Return the viewer's parameters, changed by the options that are set."""
     from vexture.server.publish_file import VIEWER_PARAMETERS
 
     values: dict[str, Any] = {"tolerance": tolerance, "select": select, "fonts": fonts, "page_colors": page_colors}
-    values |= {"trace_images": bool(trace_images), **split_of(split, silhouette)}
+    values |= {"images": images or "draw", **split_of(split, silhouette)}
     if precision is not None:
         values["precision"] = precision
     return replace(VIEWER_PARAMETERS, **values)

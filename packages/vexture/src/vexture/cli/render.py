@@ -19,11 +19,11 @@ from vexture.cli.options import (
     check_output,
     drawing_kind,
     font_option,
+    images_options,
     page_color_option,
     read_stream,
     shown_name,
     strict_option,
-    trace_images_option,
     write_output,
 )
 
@@ -67,7 +67,7 @@ Examples:
 @click.option("--select", metavar="SELECTOR", help="Draw only the elements of an SVG that a CSS selector matches.")
 @font_option
 @page_color_option
-@trace_images_option
+@images_options
 @strict_option
 @click.option(
     "--max-seconds",
@@ -96,13 +96,13 @@ def render(
     root: str | None,
     select: str | None,
     fonts: tuple[Path, ...] | None,
-    trace_images: bool | None,
+    images: str | None,
     page_colors: dict[str, str] | None,
     strict: bool,
     max_seconds: float,
     **options: Any,
 ) -> None:
-    """Render a drawing, a traced picture or a texture to a PNG, in its colours.
+    """Render a drawing, a picture or a texture to a PNG, in its colours.
 
     SOURCE_OR_TEXTURE may be - for standard input.
     """
@@ -114,7 +114,7 @@ def render(
             raise ParameterError(f"`output` {output}: pictures are PNG files; name one that ends in .png")
         _check_sides(size, width, height)
         seen = None if view is None else window(*view, rotate)  # checked before anything is read
-        given = {"select": select, "fonts": fonts, "trace_images": trace_images, "page_colors": page_colors}
+        given = {"select": select, "fonts": fonts, "images": images, "page_colors": page_colors}
         reading = {name: value for name, value in given.items() if value is not None}
         shown = _read_or_load(source, reading, strict=strict, max_seconds=max_seconds)
         view = view or _box_of(shown)

@@ -13,8 +13,8 @@ from vexture.base.deadline import allowed_seconds
 from vexture.base.errors import ParameterError
 from vexture.base.tolerance import UNSEEN
 from vexture.conversion.pipeline import convert
+from vexture.drawing.affine import Affine
 from vexture.drawing.drawing import Drawing
-from vexture.drawing.paint import Affine
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 from vexture.texture.registry import EncodedTexture
 

@@ -19,7 +19,10 @@ Split: TypeAlias = Literal["auto", "faces", "paint"] | None
 
 SPLITS = get_args(get_args(Split)[0])
 
-READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
+ImageTreatment: TypeAlias = Literal["draw", "trace", "none"]
+"""Treatment of pictures; see `vexture.read`."""
+
+READING: Final = ("select", "names", "snap", "fonts", "images", "page_colors")
 """Parameters of the reader of the source."""
 
 Fonts: TypeAlias = "Sequence[str | os.PathLike[str]] | None"
@@ -48,12 +51,13 @@ class Parameters:
     snap: float | None = None
     restyle: bool = False
     fonts: "Fonts" = None
-    trace_images: bool = False
+    images: ImageTreatment = "draw"
     page_colors: "Mapping[str, str] | None" = None
 
     def __post_init__(self) -> None:
         if self.split is not None and self.split not in SPLITS:
             raise ParameterError(f"`split` is {self.split!r}; it must be {', '.join(map(repr, SPLITS))} or None")
+        check_images(self.images)
         if self.restyle and self.split is None:
             raise ParameterError("`restyle` is for a drawing in its colours, and a silhouette has none; leave it out")
         if self.restyle and self.split not in ("auto", "faces"):
@@ -88,8 +92,7 @@ class Parameters:
     @property
     def reading(self) -> dict[str, Any]:
         """Parameters of the reader that are set, by name."""
-        values = ((name, getattr(self, name)) for name in READING)
-        return {name: value for name, value in values if value is not None and value is not False}
+        return {name: value for name, value in self.overrides.items() if name in READING}
 
     def split_of(self, drawing: "Drawing") -> Split:
         """Return the split of a drawing, with ``"auto"`` resolved.
@@ -102,6 +105,12 @@ class Parameters:
             return "faces"
         is_opaque = all(path.paint.opacity >= 1.0 for path in drawing.paths)  # then it is one layer
         return None if is_opaque or len(drawing.layers()) == 1 else "faces"
+
+
+def check_images(images: object) -> None:
+    """Raise a `ParameterError` unless a value is a treatment of pictures."""
+    if images not in get_args(ImageTreatment):
+        raise ParameterError(f"`images` is {images!r:.80}; it must be {', '.join(map(repr, get_args(ImageTreatment)))}")
 
 
 DEFAULTS: Final = Parameters()
@@ -121,8 +130,7 @@ def check_reading(
     snap: float | None,
     fonts: "str | os.PathLike[str] | Sequence[str | os.PathLike[str]]",
     page_colors: "Mapping[str, str] | None",
-    *,
-    trace_images: bool,
+    images: ImageTreatment,
 ) -> None:
     """Raise a `ParameterError` for a parameter of a reader that has no meaning for a kind of file."""
     if names is not None and kind not in (FileKind.GEOJSON, FileKind.SVG):
@@ -136,8 +144,10 @@ def check_reading(
     if fonts:
         font = fonts if isinstance(fonts, str | os.PathLike) else fonts[0]
         raise ParameterError(f"`fonts` {os.fspath(font)!r} is for the texts of an SVG; leave it out")
-    if trace_images:
-        raise ParameterError("`trace_images` is for the images in an SVG; leave it out")
+    if images == "none" and kind is FileKind.PICTURE:
+        raise ParameterError("`images` 'none' leaves nothing of a picture; leave it out")
+    if images != "draw" and kind is not FileKind.PICTURE:
+        raise ParameterError(f"`images` {images!r} is for pictures, and for those in an SVG; leave it out")
     if page_colors:
         name, color = next(iter(page_colors.items()))
         raise ParameterError(f"`page_colors` {name}={color} is for the colours of an SVG; leave it out")

@@ -11,7 +11,7 @@ from vexture.base.deadline import CLOCK, DEFAULT_SECONDS, within
 from vexture.base.errors import ParameterError
 from vexture.base.notes import Note, warn_of
 from vexture.base.tolerance import UNSEEN
-from vexture.conversion.parameters import DEFAULTS, Fonts, Parameters, Split, refuse_unknown
+from vexture.conversion.parameters import DEFAULTS, Fonts, ImageTreatment, Parameters, Split, refuse_unknown
 from vexture.texture.registry import DEFAULT, EncodedTexture, find_encoding
 
 if TYPE_CHECKING:  # imported at run time when needed: compiler and parser take long
@@ -66,7 +66,8 @@ def run_encoding(
     start, other = CLOCK.seconds(), find_encoding(encoding)
     refuse_unknown(parameters, inspect.signature(other.convert).parameters, encoding)
     with within(max_seconds):
-        drawing = drawing_of(source, {} if select is None else {"select": select}).without_masks()
+        reading = {} if select is None else {"select": select}
+        drawing = drawing_of(source, reading, for_outlines=True).without_masks()
         tree, texture, rounding = other.convert(drawing, **parameters)
     return Conversion(drawing, (tree,), texture, CLOCK.seconds() - start, rounding, notes=drawing.notes)
 
@@ -81,10 +82,11 @@ def parts_of(source: "Source | bytes", parameters: Parameters, name: str | None 
         return
     from vexture.conversion.sprites import read_drawings
 
-    plain = replace(parameters, select=None, names=None, snap=None, fonts=None, trace_images=False, page_colors=None)
+    plain = replace(parameters, select=None, names=None, snap=None, fonts=None, images="draw", page_colors=None)
     with within(parameters.max_seconds):
         start = CLOCK.seconds()
-        for label, drawing in read_drawings(source, name=name, **parameters.reading):
+        outlines = parameters.split is None
+        for label, drawing in read_drawings(source, name=name, for_outlines=outlines, **parameters.reading):
             yield replace(trees_of(drawing, plain), source=label, seconds=CLOCK.seconds() - start)
             start = CLOCK.seconds()
 
@@ -103,7 +105,7 @@ def trees_of(source: Source, parameters: Parameters) -> Conversion[Any]:
     if tolerance == "auto":
         tolerance = UNSEEN if parameters.precision is None else 0.0
     with within(parameters.max_seconds):
-        drawing = drawing_of(source, parameters.reading)
+        drawing = drawing_of(source, parameters.reading, for_outlines=parameters.split is None)
         split = parameters.split_of(drawing)
         shown = restylable(drawing) if parameters.restyle else drawing if split else drawing.without_masks()
         bounds = parameters.bounds | TreeParameters(tolerance=tolerance)
@@ -168,7 +170,7 @@ def convert(
     snap: float | None = ...,
     restyle: bool = ...,
     fonts: Fonts = ...,
-    trace_images: bool = ...,
+    images: ImageTreatment = ...,
     page_colors: Mapping[str, str] | None = ...,
 ) -> "Texture": ...
 
@@ -192,7 +194,7 @@ def convert(
     snap: float | None = None,
     restyle: bool = False,
     fonts: Fonts = None,
-    trace_images: bool = False,
+    images: ImageTreatment = "draw",
     page_colors: Mapping[str, str] | None = None,
     **others: Any,
 ) -> EncodedTexture:
@@ -235,8 +237,9 @@ def convert(
         colour then keep the border between them.
     fonts : sequence of path, optional
         Font files, and folders of font files, for the texts of an SVG; see `vexture.read_svg`.
-    trace_images : bool
-        Trace the pictures in an SVG; see `vexture.read`.
+    images : str
+        Treatment of a picture, and of the pictures in an SVG; see `vexture.read`. A silhouette of a picture, or its
+        conversion to another encoding, traces it, because the picture itself has no outlines.
     page_colors : mapping of str to str, optional
         Colours that a page would pass to the SVG; see `vexture.read_svg`.
     **others
@@ -272,7 +275,7 @@ def convert(
     """
     named = Parameters(
         split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts,
-        trace_images, page_colors,
+        images, page_colors,
     )  # fmt: skip
     if encoding == DEFAULT:
         refuse_unknown(others, (), encoding)
@@ -311,7 +314,7 @@ def atlas(
     snap: float | None = None,
     restyle: bool = False,
     fonts: Fonts = None,
-    trace_images: bool = False,
+    images: ImageTreatment = "draw",
     page_colors: Mapping[str, str] | None = None,
 ) -> "Texture":
     """Convert many drawings into one texture, with one shape per drawing, or per layer if `split` is ``"paint"``.
@@ -323,7 +326,7 @@ def atlas(
         ``name/layer``. An SVG that defines symbols and paints nothing becomes one shape per symbol, named after its id.
     name : str
         Name of the texture.
-    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, trace_images, \
+    split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts, images, \
 page_colors
         As in `vexture.convert`, for each source.
 
@@ -347,7 +350,7 @@ page_colors
     """
     parameters = Parameters(
         split, select, tolerance, max_depth, capacity, precision, max_seconds, names, snap, restyle, fonts,
-        trace_images, page_colors,
+        images, page_colors,
     )  # fmt: skip
     if isinstance(sources, str | bytes | os.PathLike) or not isinstance(sources, Iterable):
         sources = [sources]

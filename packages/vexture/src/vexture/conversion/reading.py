@@ -23,7 +23,7 @@ from vexture.base.content import (
 from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import warn_of
 from vexture.conversion.extensions import find_geographic_reader, geographic_reader
-from vexture.conversion.parameters import check_reading
+from vexture.conversion.parameters import ImageTreatment, check_images, check_reading
 
 if TYPE_CHECKING:  # at run time a reader is imported when it is needed
     from vexture.drawing.drawing import Drawing
@@ -44,14 +44,15 @@ def read(
     names: str | None = None,
     snap: float | None = None,
     fonts: Sequence[Place] = (),
-    trace_images: bool = False,
+    images: ImageTreatment = "draw",
     page_colors: Mapping[str, str] | None = None,
 ) -> "Drawing":
     """Read a drawing from a file of any supported kind, which is recognized by its content, not its suffix.
 
     - SVG, plain or gzipped (`vexture.read_svg`).
     - GeoJSON (`vexture.read_geojson`).
-    - PNG, JPEG, WebP, GIF or BMP, traced (`vexture.read_image`; needs ``vexture[trace]``).
+    - PNG, JPEG, WebP, GIF or BMP: a rectangle with the pixels (`Paint.picture`), or the outlines that tracing finds
+      (`vexture.read_image`; needs ``vexture[trace]``).
     - Wet areas of a GeoPackage, SpatiaLite, FlatGeobuf, zipped shapefile or FileGDB, KML, KMZ, GPX, GML, GeoTIFF,
       Esri grid, NetCDF or GRIB (`vexture.read_extent`; needs ``vexture[gis]``), GeoParquet, Feather or CSV
       (``vexture[map]``). A time series is read at its first time step.
@@ -71,10 +72,11 @@ def read(
         Largest gap between borders of polygons that are merged, for maps only; see `vexture.read_geojson`.
     fonts : sequence of path
         Font files, and folders of font files, for the texts of an SVG; see `vexture.read_svg`.
-    trace_images : bool
-        Trace the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP; needs ``vexture[trace]``): embedded ones and, if
-        `source` is a path, files in its folder or in folders below. SVG images in both places are always drawn. Other
-        files and URLs are never read.
+    images : str
+        Treatment of a picture, and of the pictures in an SVG (PNG, JPEG, WebP, GIF, BMP): embedded ones and, if
+        `source` is a path, files in its folder or in folders below. ``"draw"`` draws their pixels, ``"trace"`` traces
+        them (needs ``vexture[trace]``), and ``"none"`` leaves those in an SVG out. SVG images in both places are always
+        drawn. Other files and URLs are never read.
     page_colors : mapping of str to str, optional
         Colours that a page would pass to the SVG, such as that of ``currentColor``; see `vexture.read_svg`.
 
@@ -88,9 +90,10 @@ def read(
     SourceError
         If the source cannot be read, or is a texture.
     ParameterError
-        If `select`, `fonts`, `trace_images` or `page_colors` is given for anything but SVG, `names` for anything but
-        GeoJSON and SVG, or `snap` for anything but a map; if `select` is not a selector, `page_colors` holds something
-        that is not a colour, `source` is the text of a file, or a parameter has the wrong type.
+        If `select`, `fonts` or `page_colors` is given for anything but SVG, `images` for anything but SVG and pictures,
+        `names` for anything but GeoJSON and SVG, or `snap` for anything but a map; if `select` is not a selector,
+        `page_colors` holds something that is not a colour, `source` is the text of a file, or a parameter has the wrong
+        type.
     TypeError
         If `source` is something else, such as a file that is open in text mode.
     LimitError
@@ -111,7 +114,7 @@ def read(
     'OGC:CRS84'
     """
     drawing = read_drawing(
-        source, name=name, select=select, names=names, snap=snap, fonts=fonts, trace_images=trace_images,
+        source, name=name, select=select, names=names, snap=snap, fonts=fonts, images=images,
         page_colors=page_colors,
     )  # fmt: skip
     warn_of(name_of(source, name), drawing.notes)
@@ -126,13 +129,13 @@ def read_drawing(
     names: str | None = None,
     snap: float | None = None,
     fonts: Sequence[Place] = (),
-    trace_images: bool = False,
+    images: ImageTreatment = "draw",
     page_colors: Mapping[str, str] | None = None,
+    for_outlines: bool = False,
 ) -> "Drawing":
-    """Read a drawing as `read` does, but without a warning."""
+    """Read a drawing as `read` does, but without a warning; for its outlines only, trace a picture, which has none."""
     source, label = _check_source(source), name_of(source, name)
-    if not isinstance(trace_images, bool):
-        raise ParameterError(f"`trace_images` is {trace_images!r:.80}; it must be True or False")
+    check_images(images)
     with about(label):
         given = unpack_source(
             source if isinstance(source, bytes | str | os.PathLike) else source.read(LARGEST_FILE + 1)
@@ -142,29 +145,31 @@ def read_drawing(
             if not _is_drawing(given) and (reader := find_geographic_reader()) is not None:
                 given = reader.unpack(given, label)
             kind = known_kind(start_of(given) or read_bytes(given), label)
-        check_reading(kind, select, names, snap, fonts, page_colors, trace_images=trace_images)
+        check_reading(kind, select, names, snap, fonts, page_colors, images)
+        if kind is FileKind.PICTURE:
+            return _read_picture(given, label, "trace" if for_outlines else images)
         if kind is not FileKind.SVG:
             return _read_other(kind, given, label, names, snap)
         content = read_bytes(given)
     from vexture.svg.read import svg_drawing
 
     folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
-    return svg_drawing(content, label, select, names, fonts, images_of(folder, traced=trace_images), page_colors)
+    return svg_drawing(content, label, select, names, fonts, images_of(folder, images), page_colors)
 
 
-def images_of(folder: Path | None, *, traced: bool) -> "Images":
-    """Return the access to images of an SVG: embedded ones, those in a folder if given, and pictures if `traced`."""
+def images_of(folder: Path | None, images: ImageTreatment) -> "Images":
+    """Return the access to images of an SVG, embedded ones and those in a folder if given, with their treatment."""
     from vexture.svg.images import Images
 
-    if not traced:
-        return Images(folder=folder)
+    if images != "trace":
+        return Images(folder=folder, has_pictures=images == "draw")
     from vexture.tracing.trace import embedded_image
 
     return Images(embedded_image, folder)
 
 
-def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
-    """Return a source that is a drawing, or read the drawing with the parameters of its reader."""
+def drawing_of(source: "Drawing | Place", reading: dict[str, Any], *, for_outlines: bool = False) -> "Drawing":
+    """Return a source that is a drawing, or read the drawing with the parameters of its reader, as `read_drawing`."""
     from vexture.drawing.drawing import Drawing
 
     if not isinstance(source, Drawing):
@@ -173,7 +178,7 @@ def drawing_of(source: "Drawing | Place", reading: dict[str, Any]) -> "Drawing":
             raise TypeError(
                 f"`source` is of the type {kind}; give a path or a Drawing, which vexture.read makes of bytes and files"
             )
-        return read_drawing(source, **reading)
+        return read_drawing(source, for_outlines=for_outlines, **reading)
     for name, value in reading.items():
         raise ParameterError(
             f"`{name}` is {value!r}, but {source.name} is a drawing, which is read already; "
@@ -214,11 +219,19 @@ def _read_other(kind: FileKind, source: Place | bytes, label: str, names: str | 
     if kind is FileKind.TEXTURE:
         raise SourceError("is a texture already; give the drawing that it was made from")
     name = Path(label).stem or UNNAMED
-    if kind is FileKind.PICTURE:
+    return geographic_reader(kind).read_drawing(kind, source, label, name, names=names, snap=snap)
+
+
+def _read_picture(source: Place | bytes, label: str, images: ImageTreatment) -> "Drawing":
+    """Read a picture; the caller adds the file's name to errors."""
+    name = Path(label).stem or UNNAMED
+    if images == "trace":
         from vexture.tracing.trace import image_drawing
 
         return image_drawing(source, name)
-    return geographic_reader(kind).read_drawing(kind, source, label, name, names=names, snap=snap)
+    from vexture.tracing.whole import picture_drawing
+
+    return picture_drawing(source, name)
 
 
 def _is_drawing(source: Place | bytes) -> bool:

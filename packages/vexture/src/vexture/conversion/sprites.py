@@ -47,7 +47,7 @@ def read_drawings(source: Place | bytes, *, name: str | None = None, **reading: 
 
     folder = Path(source).parent if isinstance(source, str | os.PathLike) else None
     of_symbols: dict[str, Any] = {key: reading[key] for key in ("names", "fonts", "page_colors") if key in reading}
-    of_symbols["images"] = images_of(folder, traced=reading.get("trace_images", False))
+    of_symbols["images"] = images_of(folder, reading.get("images", "draw"))
     is_sprite = False
     for symbol in symbol_drawings(read_bytes(plain), label, **of_symbols):
         is_sprite = True

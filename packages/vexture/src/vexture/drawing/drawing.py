@@ -20,13 +20,15 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import SourceError
 from vexture.base.notes import Note
 from vexture.bezier.convert import line_cubics
+from vexture.drawing.affine import Affine
 from vexture.drawing.contours import check_contours, join_contours, together
 from vexture.drawing.group import Blend, Group, Mask, groups_around
-from vexture.drawing.paint import BLACK, Affine, Paint
+from vexture.drawing.paint import BLACK, Paint
 from vexture.drawing.unit_square import clip_contours, tidy_contours
 
 SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by itself"
 BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
+PICTURED: Final = "picture shown as its mean colour"
 SOLID: Final = "pattern shown as solid"
 """Notes on what layers and silhouettes lose: neither has groups, and layers have no gradients either."""
 
@@ -187,7 +189,9 @@ class Drawing:
 
     @property
     def is_coloured(self) -> bool:
-        """True if the drawing has more than one colour: several paints, a gradient, or groups, which change colours.
+        """True if the drawing has more than one colour.
+
+        That is with several paints, a gradient or picture, or groups, which change colours.
 
         Examples
         --------
@@ -195,20 +199,21 @@ class Drawing:
         False
         """
         paints = {path.paint for path in self.paths}
-        return len(paints) > 1 or bool(self.groups) or any(paint.gradient is not None for paint in paints)
+        return len(paints) > 1 or bool(self.groups) or any(paint.is_varied for paint in paints)
 
     def layers(self) -> "tuple[Drawing, ...]":
         """Split the drawing by paint; drawn in order, the layers reproduce the drawing in its colours.
 
         Consecutive paths with the same opaque paint form one layer. A translucent paint would show twice where two
         paths overlap, so paths with such a paint share a layer only if their boxes do not touch. Layers have no groups:
-        each path gets the opacities of all groups around it, and blends normally. A gradient becomes its mean colour.
+        each path gets the opacities of all groups around it, and blends normally. Gradients and pictures become their
+        mean colours.
 
         Returns
         -------
         tuple of Drawing
             In painting order, each with one paint, named ``name/number-colour`` and counted from 1. Each has the notes
-            of the drawing and those on lost groups and gradients. The tuple is empty if nothing is painted.
+            of the drawing and those on lost groups, gradients and pictures. The tuple is empty if nothing is painted.
 
         Examples
         --------
@@ -218,7 +223,7 @@ class Drawing:
         >>> [(layer.name, len(layer.paths)) for layer in logo.layers()]
         [('logo/1-#ff0000', 2), ('logo/2-#0000ff80', 1), ('logo/3-#0000ff80', 1)]
         """
-        if self.groups or any(path.paint.gradient is not None for path in self.paths):
+        if self.groups or any(path.paint.is_varied for path in self.paths):
             return self.flat().layers()
         boxes = np.array([path.box for path in self.paths]).reshape(-1, 2, 2)
         starts: list[int] = []
@@ -236,7 +241,7 @@ class Drawing:
         )
 
     def flat(self) -> "Drawing":
-        """Return the drawing without groups, masks and gradients.
+        """Return the drawing without groups, masks, gradients and pictures.
 
         Each path gets the opacities of the groups around it, and a shape filled with a pattern becomes solid. Notes
         list what a picture of the result lacks.
@@ -274,7 +279,15 @@ class Drawing:
         patterns = sum(group.pattern for group in self.groups)
         masks = sum(group.mask is not Mask.NONE for group in self.groups) - patterns
         shaded = sum(path.paint.gradient is not None for path in self.paths)
-        counts = ((SHARED_OPACITY, shared), (BLENDING, blended), (MASKING, masks), (SOLID, patterns), (SHADED, shaded))
+        pictured = sum(path.paint.picture is not None for path in self.paths)
+        counts = (
+            (SHARED_OPACITY, shared),
+            (BLENDING, blended),
+            (MASKING, masks),
+            (SOLID, patterns),
+            (SHADED, shaded),
+            (PICTURED, pictured),
+        )
         for message, count in counts:
             if count:
                 yield Note("simplified", message, count)

@@ -1,16 +1,15 @@
-"""Paints: flat colours, and gradients as in SVG."""
+"""Paints: flat colours, gradients as in SVG, and pictures."""
 
 from dataclasses import dataclass, replace
 from enum import IntEnum
 from math import isfinite
 
 from vexture.base.errors import SourceError
+from vexture.drawing.affine import Affine, compose_affine
+from vexture.drawing.picture import Picture
 
 Color = tuple[float, float, float]
 """Red, green and blue, sRGB, each in 0..1."""
-
-Affine = tuple[tuple[float, float, float], tuple[float, float, float]]
-"""Rows of an affine map of (x, y, 1)."""
 
 
 class Spread(IntEnum):
@@ -66,21 +65,20 @@ class Gradient:
 
     def after(self, matrix: Affine) -> "Gradient":
         """Return the gradient in new coordinates; `matrix` maps the new ones to the old ones."""
-        (a, b, c), (d, e, f) = matrix
-        rows = [(p * a + q * d, p * b + q * e, p * c + q * f + r) for p, q, r in self.to_ramp]
-        return replace(self, to_ramp=(rows[0], rows[1]))
+        return replace(self, to_ramp=compose_affine(self.to_ramp, matrix))
 
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """A flat colour, as sRGB components and opacity in 0..1, or a gradient with its mean as the flat colour.
+    """A flat colour, as sRGB components and opacity in 0..1, or a gradient or picture with its mean as the flat colour.
 
-    Renderers without gradients show the flat colour.
+    Renderers without gradients show the flat colour. A paint has no gradient and picture at once.
     """
 
     color: Color = (0.0, 0.0, 0.0)
     opacity: float = 1.0
     gradient: Gradient | None = None
+    picture: Picture | None = None
 
     def __post_init__(self) -> None:
         if not all(0.0 <= part <= 1.0 for part in (*self.color, self.opacity)):
@@ -99,23 +97,40 @@ class Paint:
         red, green, blue = (sum(stop.color[k] for stop in stops) / len(stops) for k in range(3))
         return cls((red, green, blue), sum(stop.opacity for stop in stops) / len(stops), gradient)
 
+    @classmethod
+    def from_picture(cls, picture: Picture) -> "Paint":
+        """Make the paint of a picture; its flat colour is the picture's mean."""
+        *color, opacity = picture.mean
+        return cls((color[0], color[1], color[2]), opacity, picture=picture)
+
     def fade(self, opacity: float) -> "Paint":
         """Return the paint with its opacity, and those of all stops, multiplied."""
         if opacity == 1.0:
             return self
-        gradient = self.gradient
+        gradient, picture = self.gradient, self.picture
+        if picture is not None:
+            picture = replace(picture, opacity=opacity * picture.opacity)
         if gradient is not None:
             stops = tuple(replace(stop, opacity=opacity * stop.opacity) for stop in gradient.stops)
             gradient = replace(gradient, stops=stops)
-        return Paint(self.color, opacity * self.opacity, gradient)
+        return Paint(self.color, opacity * self.opacity, gradient, picture)
 
     def after(self, matrix: Affine) -> "Paint":
         """Return the paint in new coordinates; `matrix` maps the new ones to the old ones."""
+        if self.picture is not None:
+            return replace(self, picture=self.picture.after(matrix))
         return self if self.gradient is None else replace(self, gradient=self.gradient.after(matrix))
+
+    @property
+    def is_varied(self) -> bool:
+        """True if the colour differs from point to point: a gradient or a picture."""
+        return self.gradient is not None or self.picture is not None
 
     @property
     def is_opaque(self) -> bool:
         """True if nothing below shows through any part of the paint."""
+        if self.picture is not None:
+            return self.picture.is_opaque
         if self.gradient is None:
             return self.opacity >= 1.0
         focus = self.gradient.focus

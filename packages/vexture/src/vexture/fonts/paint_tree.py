@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from vexture.base.notes import Notes
 from vexture.bezier.convert import line_cubics
-from vexture.drawing.paint import Affine, Color, Gradient, Paint, Spread, Stop
+from vexture.drawing.affine import Affine
+from vexture.drawing.paint import Color, Gradient, Paint, Spread, Stop
 from vexture.fonts.engine import harfbuzz
 
 Contours: TypeAlias = tuple[NDArray[np.float64], ...]

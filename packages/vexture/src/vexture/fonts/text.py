@@ -12,9 +12,10 @@ from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, ParameterError, SourceError, shorten_text
 from vexture.base.notes import Note, Notes, warn_of
 from vexture.bezier.bounds import bounds
+from vexture.drawing.affine import Affine
 from vexture.drawing.drawing import Drawing, Path
 from vexture.drawing.group import Group
-from vexture.drawing.paint import BLACK, Affine, Paint
+from vexture.drawing.paint import BLACK, Paint
 from vexture.fonts.layers import GlyphLayers
 from vexture.fonts.library import GENERIC, Fonts
 from vexture.fonts.lines import FaceChoice, Placed, Typesetting, is_seen, line_of_glyphs

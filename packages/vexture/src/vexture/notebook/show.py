@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from vexture_geo.flood.page import FloodPage
     from vexture_geo.flood.widget import FloodWidget
 
-READING: Final = ("select", "names", "snap", "fonts", "trace_images", "page_colors")
+READING: Final = ("select", "names", "snap", "fonts", "images", "page_colors")
 """Options of a conversion that belong to its reader."""
 
 OPTIONAL: Final = ("root", "width", "colors", "view")
@@ -142,7 +142,7 @@ def _texture_of(source: Any, options: dict[str, Any]) -> "Texture":
     if not isinstance(source, Drawing):
         reading = {name: options.pop(name) for name in READING if name in options}
         source = read(Path(source), **reading)
-    flat = all(path.paint.gradient is None for path in source.paths)
+    flat = not any(path.paint.is_varied for path in source.paths)
     named = any(path.element for path in source.paths)
     chosen = {"precision": VIEWER_PARAMETERS.precision, "restyle": flat and named, **options}
     return convert(source, **chosen)

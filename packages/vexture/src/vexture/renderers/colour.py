@@ -27,7 +27,7 @@ from vexture.renderers.cells import (
 )
 from vexture.renderers.cpu import VextureLook, above_ends, cut_place, first_look, is_beside, piece_area
 from vexture.renderers.flat import VextureFlat, flat, flat_piece_area
-from vexture.renderers.gradient import Vec4, VextureRegion, times
+from vexture.renderers.gradient import VextureRegion
 from vexture.renderers.leaf import leaf, leaf_piece, leaf_sides
 from vexture.renderers.method import NEARLY_WHOLE, NO_CELL, POSITION_BITS
 from vexture.renderers.moment import (
@@ -59,6 +59,7 @@ from vexture.renderers.paints import (
 )
 from vexture.renderers.piece import VextureBox, VextureFrame, box, ends, frame, in_box, piece, view_pixel, word
 from vexture.renderers.uniforms import HasTexels, uniforms_of
+from vexture.renderers.vectors import Vec4, times
 from vexture.renderers.view import Size, ViewLike
 
 

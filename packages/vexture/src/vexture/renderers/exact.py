@@ -4,7 +4,7 @@ It deliberately uses neither the quad-tree, its boundary code nor a fill library
 from top to bottom over the drawing's chords (`vexture.renderers.flatten`), slab by slab (`vexture.renderers.exact`).
 The winding number of each path, counted from left to right, identifies the chords that bound the union of the paths, or
 at which the colour changes (`vexture.renderers.faces`). Their exact trapezoids are added to the pixels of the row, and
-so are the integrals over faces with gradients (`vexture.renderers.regions`).
+so are the integrals over faces with gradients and pictures (`vexture.renderers.regions`).
 """
 
 from collections.abc import Iterator
@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.deadline import check_time
-from vexture.base.errors import ParameterError
+from vexture.base.errors import LimitError, ParameterError
 from vexture.base.kernels import kernel
 from vexture.base.tolerance import FLATNESS, SCANLINE
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture.renderers.faces import FLAT, RUN, PathStack, SweepFaces, find_face, forget
 from vexture.renderers.flatten import Chords, find_chords, snap
+from vexture.renderers.ramps import MOST_CUTS
 from vexture.renderers.regions import SIDE, Regions, add_region, end_row
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
@@ -164,25 +165,33 @@ def render_exact_colours(
     """Exact colour of each pixel's square, in sRGB: the sum over the faces of a face's colour times its area there.
 
     A *face* is the set of points that lie inside the same paths. Its colour is composited as SVG and CSS define, with
-    the drawing's groups: once for a flat face; where gradients are visible, the colour at each point is integrated. So
-    nothing shines through where two paths touch. The result is (height, width, 4), premultiplied, top row first; all
-    else is as in `render_exact`.
+    the drawing's groups: once for a flat face; where gradients or pictures are visible, the colour at each point is
+    integrated. So nothing shines through where two paths touch. The result is (height, width, 4), premultiplied, top
+    row first; all else is as in `render_exact`.
 
     The error of a component is at most 2/3 of the flatness times the length of the outlines in the pixel, each times
     the jump of the component there: by default 0.005/255 for one outline. Integrals over gradients are refined until
     they are steady. This adds an error of up to 0.02/255 in most drawings; it was 0.1/255 in the worst pixel of 120
     random drawings with all blend modes and up to ten periods of a gradient in a pixel. More than 64 periods in a
-    pixel, or 1,024 corners of ramps on a line in one, are not resolved.
+    pixel, or 1,024 corners of ramps on a line in one, are not resolved. Integrals over pictures are exact, up to
+    0.01/255 where more than 512 corners of a picture's pixels lie in one pixel of the image, not parallel to it; a
+    `LimitError` is raised if more than 1,024 of its columns and rows meet a line in one, or 500 its borders.
     """
     width, height = size_of(size)
     image = np.zeros((height, width, 4), np.float32)
     chords = chords_of(drawing, (width, height), view, flatness)
     if len(chords.lines):
         stack = PathStack.of_drawing(drawing, view_matrix(view, (width, height)))
-        regions = Regions.between(chords.lines if stack.ramps.stops.size else chords.lines[:0], width)
+        varies = bool(stack.ramps.stops.size or stack.samples.pixels.size)
+        regions = Regions.between(chords.lines if varies else chords.lines[:0], width)
         sweep, faces = Sweep.over(chords), SweepFaces.at_start(stack)
         for rows in bands(height, drawing.name):
             colour_rows(sweep, chords.owners, stack, faces, regions, rows, image)
+            if stack.samples.lost[0]:
+                raise LimitError(
+                    f"{drawing.name}: more than {MOST_CUTS:,} columns and rows of a picture meet a line in one pixel, "
+                    "the limit of the exact renderer; make the image larger, or use another `renderer`"
+                )
     return image
 
 

@@ -2,8 +2,8 @@
 
 A *face* is the set of points that lie inside the same paths. Its colour is composited from the paints of these paths as
 SVG and CSS define. Each path is drawn over the lower paths of its group. A group is composited by itself on a
-transparent background, then laid on the content below it. A face of flat paints has one colour; if a gradient is
-visible, the colour varies from point to point.
+transparent background, then laid on the content below it. A face of flat paints has one colour; if a gradient or a
+picture is visible, the colour varies from point to point.
 
 A sweep meets the same faces in slab after slab. Each path has a random number of 64 bits. The exclusive or of the
 numbers of the paths inside names the face, and recent faces are cached by their names.
@@ -19,6 +19,7 @@ from vexture.drawing.drawing import Drawing, FillRule
 from vexture.drawing.group import Blend, Mask
 from vexture.renderers.blend import lay
 from vexture.renderers.ramps import Ramps, shade
+from vexture.renderers.samples import Samples, sample
 
 KEPT: Final = 2**16
 """Size of the cache of faces, a power of two; 3.7 MB."""
@@ -30,7 +31,7 @@ RUN: Final = 64
 """Paths per run: a new face searches only the runs in which a path is inside."""
 
 FLAT: Final = -1
-"""Start of a face without gradients."""
+"""Start of a face without gradients and pictures."""
 
 
 class PathStack(NamedTuple):
@@ -38,7 +39,7 @@ class PathStack(NamedTuple):
 
     evenodd: NDArray[np.bool_]  # (paths,)
     paints: NDArray[np.float64]  # (paths, 4): premultiplied
-    shades: NDArray[np.int64]  # (paths,): the ramp of each, or -1
+    shades: NDArray[np.int64]  # (paths,): the ramp of each, after all ramps the picture, or -1
     covering: NDArray[np.bool_]  # (paths,): does it hide all below
     groups: NDArray[np.int64]  # (paths,): `Path.group`
     names: NDArray[np.int64]  # (paths,): random numbers
@@ -48,18 +49,22 @@ class PathStack(NamedTuple):
     masks: NDArray[np.int64]  # (groups,)
     masked: NDArray[np.int64]  # (groups,): number of masks of a group
     ramps: Ramps
+    samples: Samples
 
     @classmethod
     def of_drawing(cls, drawing: Drawing, view: NDArray[np.float64]) -> "PathStack":
         """Stack of a drawing in an image; `view` is the (3, 3) matrix from pixel coordinates to the unit square."""
         paths, groups, bits = drawing.paths, drawing.groups, np.iinfo(np.int64)
         paints = np.array([(*path.paint.color, 1.0) for path in paths], np.float64)
-        gradients = [path.paint.gradient for path in paths]
-        shaded = np.array([gradient is not None for gradient in gradients])
+        gradients = [path.paint.gradient for path in paths if path.paint.gradient is not None]
+        pictures = [path.paint.picture for path in paths if path.paint.picture is not None]
+        shaded = np.array([path.paint.gradient is not None for path in paths])
+        pictured = np.array([path.paint.picture is not None for path in paths])
+        shades = np.where(pictured, len(gradients) + np.cumsum(pictured) - 1, -1)
         return cls(
             np.array([path.fill_rule == FillRule.EVENODD for path in paths]),
             paints * np.array([[path.paint.opacity] for path in paths]),
-            np.where(shaded, np.cumsum(shaded) - 1, -1),
+            np.where(shaded, np.cumsum(shaded) - 1, shades),
             np.array([path.paint.is_opaque and path.group == -1 for path in paths]),
             np.array([path.group for path in paths], np.int64),
             np.random.default_rng(0).integers(bits.min, bits.max, len(paths), endpoint=True),
@@ -70,7 +75,8 @@ class PathStack(NamedTuple):
             np.array(
                 [sum(mask.outer == place for mask in groups if mask.mask) for place in range(len(groups))], np.int64
             ),
-            Ramps.of_gradients([gradient for gradient in gradients if gradient is not None], view),
+            Ramps.of_gradients(gradients, view),
+            Samples.of_pictures(pictures, view),
         )
 
 
@@ -81,12 +87,12 @@ class SweepFaces(NamedTuple):
     inside: NDArray[np.int64]  # (paths/RUN,): number of paths inside, of each run
     left: NDArray[np.float64]  # (4,): colour on the left of a chord
     names: NDArray[np.int64]  # (KEPT,): indexed by its last bits; initially 0, the name of the empty face
-    colours: NDArray[np.float64]  # (KEPT, 4): premultiplied; 0 for a face with gradients
+    colours: NDArray[np.float64]  # (KEPT, 4): premultiplied; 0 for a face of varying colour
     starts: NDArray[np.int64]  # (KEPT,): start of a face's paths among the members, or FLAT
     ends: NDArray[np.int64]  # (KEPT,): end of the face's paths
     members: NDArray[np.int64]  # (MEMBERS + paths,): visible paths of each face, from the lowest up
     used: NDArray[np.int64]  # (1,): number of members in use
-    levels: NDArray[np.float64]  # (groups + 2, 4): colours so far of the drawing and its groups; a gradient's colour
+    levels: NDArray[np.float64]  # (groups + 2, 4): colours so far of the drawing and its groups; a paint's colour
     shown: NDArray[np.float64]  # (groups,): factor that a group's masks leave of it
     missing: NDArray[np.int64]  # (groups,): number of its masks that have not been met
 
@@ -174,13 +180,23 @@ def composite(
         change_group(group, stack.groups[path], stack, faces)
         group = stack.groups[path]
         if stack.shades[path] >= 0:
-            shade(stack.ramps, stack.shades[path], x, y, paint)
+            shade_point(stack, stack.shades[path], x, y, paint)
             lay(paint, 1.0, Blend.NORMAL, levels[group + 1])
         else:
             lay(stack.paints[path], 1.0, Blend.NORMAL, levels[group + 1])
     change_group(group, -1, stack, faces)
     for channel in range(4):
         colour[channel] = levels[0, channel]
+
+
+@kernel(allocates=False)
+def shade_point(stack: PathStack, k: int, x: float, y: float, colour: NDArray[np.float64]) -> None:
+    """Write the premultiplied colour of a ramp or a picture, numbered as in `PathStack.shades`, at a point."""
+    ramps = len(stack.ramps.radial)
+    if k < ramps:
+        shade(stack.ramps, k, x, y, colour)
+    else:
+        sample(stack.samples, k - ramps, x, y, colour)
 
 
 @kernel(allocates=False)

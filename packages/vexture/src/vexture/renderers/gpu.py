@@ -20,15 +20,20 @@ def program(is_flat: bool) -> Any:
 
 
 @cache
-def color_program(is_flat: bool, is_linear: bool, has_gradients: bool) -> Any:
+def color_program(is_flat: bool, is_linear: bool, gradients: int) -> Any:
     """Compiled shader, with its triangle, for planar maps, averaged in linear light or in sRGB."""
-    return compile_shader(color_source(VERSION, is_flat, is_linear, has_gradients))
+    return compile_shader(color_source(VERSION, is_flat, is_linear, gradients))
 
 
-def has_gradients(texture: HasTexels, quad: int) -> bool:
-    """Return whether a paint of the planar map with root quad `quad` is a program (FORMAT.md, D.1)."""
+def gradients_of(texture: HasTexels, quad: int) -> int:
+    """Value of ``VEXTURE_GRADIENTS`` for the planar map with root quad `quad` (FORMAT.md, D.1).
+
+    It is 0 if no paint is a program, 1 if programs hold no pictures, and 2 if they do.
+    """
     flat, head = texture.texels.reshape(-1, 4), quad - MAP_HEAD
-    return not 0 <= head < len(flat) or bool(flat[head, 1])
+    if not 0 <= head < len(flat):
+        return 1
+    return 2 if flat[head, 3] else int(flat[head, 1] > 0)
 
 
 def drawn(gl: Any, triangle: Any, texture: HasTexels, uniforms: Uniforms, channels: int) -> NDArray[np.float32]:
@@ -63,5 +68,5 @@ def render_gpu_colours(
     uniforms = uniforms_of(texture, size, view, root)
     with ONE_AT_A_TIME, context() as gl:
         return drawn(
-            gl, color_program(uniforms.is_flat, is_linear, has_gradients(texture, uniforms.quad)), texture, uniforms, 4
+            gl, color_program(uniforms.is_flat, is_linear, gradients_of(texture, uniforms.quad)), texture, uniforms, 4
         )

@@ -1,4 +1,4 @@
-"""The mirror of ``shaders/gradient.glsl`` and ``shaders/blend.glsl``: paints that hold gradients.
+"""The mirror of ``shaders/gradient.glsl`` and ``shaders/blend.glsl``: paints that hold gradients or pictures.
 
 See `vexture.renderers.cpu`.
 """
@@ -9,11 +9,13 @@ from typing import NamedTuple
 from vexture.base.kernels import kernel
 from vexture.base.layout import (
     COORDINATE_BITS,
+    COVERAGE_ONE,
     KIND_FOCAL,
     KIND_FOLLOWS,
     KIND_KEEP,
     KIND_LINEAR,
     KIND_MIX,
+    KIND_PICTURE,
     KIND_SHIFT,
     KIND_SOLID,
     LUMINANCE_BLUE,
@@ -35,20 +37,21 @@ from vexture.renderers.method import (
     GREY,
     LEAST_COLOR,
     LEAST_RADIUS,
+    LEAST_SHARE,
     LONGEST_RAMP,
     MOST_RAMP_PARTS,
     NEARLY_WHOLE,
     NO_PLACE,
     NOTHING,
+    PICTURE_RAMP,
     PIXEL_PARTS,
     PRODUCT_PARTS,
     RAMP_BEND,
     RAMP_PARTS,
     SHORTEST_RAMP,
 )
-
-Vec3 = tuple[float, float, float]
-Vec4 = tuple[float, float, float, float]
+from vexture.renderers.pixels import VextureLevel, picture_mean
+from vexture.renderers.vectors import Vec3, Vec4, as_float, as_floats, plus, times
 
 NORMAL, COLOR_BURN, HUE = int(Blend.NORMAL), int(Blend.COLOR_BURN), int(Blend.HUE)
 PLUS_LIGHTER, LUMINANCE = int(Blend.PLUS_LIGHTER), int(Mask.LUMINANCE)
@@ -73,39 +76,10 @@ class VextureRamp(NamedTuple):
 
 
 @kernel(allocates=False)
-def plus(a: Vec4, b: Vec4, share: float) -> Vec4:
-    """Return ``a + share * b`` of GLSL."""
-    return a[0] + share * b[0], a[1] + share * b[1], a[2] + share * b[2], a[3] + share * b[3]
-
-
-@kernel(allocates=False)
-def times(a: Vec4, share: float) -> Vec4:
-    """Return ``share * a`` of GLSL."""
-    return a[0] * share, a[1] * share, a[2] * share, a[3] * share
-
-
-@kernel(allocates=False)
 def halves(words: Whole2) -> Vec4:
     """Unpack four numbers, 0..65535, from two words."""
     mask, (low, high) = (1 << COORDINATE_BITS) - 1, words
     return float(low & mask), float(low >> COORDINATE_BITS), float(high & mask), float(high >> COORDINATE_BITS)
-
-
-@kernel(allocates=False)
-def as_float(bits: int) -> float:
-    """Mirror GLSL's ``uintBitsToFloat`` (IEEE 754); float64 represents every float32 exactly."""
-    size, part = (bits >> 23) & 255, bits & 0x7FFFFF
-    if size == 255:
-        value = math.nan if part else math.inf
-    else:
-        value = (part + 0x800000) * 2.0 ** (size - 150) if size else part * 2.0**-149
-    return -value if bits >> 31 else value
-
-
-@kernel(allocates=False)
-def as_floats(bits: Texel) -> Vec3:
-    """Read the first three words of a texel as float32."""
-    return as_float(bits[0]), as_float(bits[1]), as_float(bits[2])
 
 
 # --- blend.glsl ------------------------------------------------------------------------------------------------
@@ -337,6 +311,24 @@ def gradient(texels: Texels, at: int, record: Texel, number: int, region: Vextur
 
 
 @kernel(allocates=False)
+def picture_region(texels: Texels, at: int, region: VextureRegion) -> VextureRegion:
+    across, down = as_floats(texel(texels, at + 1)), as_floats(texel(texels, at + 2))
+    point = (dot(across, region.point) + across[2], dot(down, region.point) + down[2])
+    right = (dot(across, region.right), dot(down, region.right))
+    return VextureRegion(point, right, (dot(across, region.up), dot(down, region.up)))
+
+
+@kernel(allocates=False)
+def picture(texels: Texels, at: int, record: Texel, region: VextureRegion, share: float) -> Vec4:
+    mask = (1 << COORDINATE_BITS) - 1
+    size = (max(0 + (record[1] & mask), 1), max(0 + (record[1] >> COORDINATE_BITS), 1))  # of 64 bits
+    is_smooth, pixels = record[3] & 1 != 0, picture_region(texels, at, region)
+    level = VextureLevel(size, 0 + at + record[2])
+    mean = picture_mean(texels, level, is_smooth, pixels.point, pixels.right, pixels.up, share)
+    return times(mean, (record[0] & mask) / PAINT_ONE / COVERAGE_ONE)
+
+
+@kernel(allocates=False)
 def ended(kept: Vec4, color: Vec4, how: int) -> Vec4:
     if how < MASKS:
         return blended(kept, color, how)
@@ -345,7 +337,7 @@ def ended(kept: Vec4, color: Vec4, how: int) -> Vec4:
 
 
 @kernel(allocates=False)
-def program_part(texels: Texels, at: int, end: int, region: VextureRegion) -> Vec4:
+def program_part(texels: Texels, at: int, end: int, region: VextureRegion, share: float) -> Vec4:
     nothing = (0.0, 0.0, 0.0, 0.0)
     color, kept, kept_before, kept_first = nothing, nothing, nothing, nothing
     left = MOST_STOPS
@@ -359,7 +351,9 @@ def program_part(texels: Texels, at: int, end: int, region: VextureRegion) -> Ve
             kept, kept_before = kept_before, kept_first
         elif kind != KIND_FOLLOWS:
             above = times(halves((found[0], found[1])), 1.0 / PAINT_ONE)
-            if kind != KIND_SOLID:
+            if kind == KIND_PICTURE:
+                above = picture(texels, k, found, region, share)
+            elif kind != KIND_SOLID:
                 number = min(max((found[3] >> STOP_BITS) & MOST_STOPS, 1), max(left, 1))
                 left -= min(number, left)
                 above = gradient(texels, k, found, number, region)
@@ -379,6 +373,9 @@ def program_parts(texels: Texels, at: int, end: int, region: VextureRegion, area
         elif KIND_LINEAR <= kind <= KIND_FOCAL:
             factors, place = factors + 1, gradient_ramp(texels, k, found, region)
             bends, ramps = larger(bends, place.parts), larger(ramps, spans(place.way, region))
+        elif kind == KIND_PICTURE:
+            factors, pixels = factors + 1, picture_region(texels, k, region)
+            ramps = larger(ramps, (PICTURE_RAMP * length(pixels.right), PICTURE_RAMP * length(pixels.up)))
     parts = larger(bends, (for_each * ramps[0], for_each * ramps[1])) if factors > 1 else bends
     most = math.ceil(clamp(PIXEL_PARTS * math.sqrt(abs(area)), 1.0, float(MOST_RAMP_PARTS)))
     return math.ceil(clamp(parts[0], 1.0, most)), math.ceil(clamp(parts[1], 1.0, most))
@@ -390,9 +387,9 @@ def program(texels: Texels, at: int, count: int, region: VextureRegion, area: fl
     end = at + min(count, MOST_PROGRAM)
     across, high = program_parts(texels, at, end, region, area)
     right, up = (region.right[0] / across, region.right[1] / across), (region.up[0] / high, region.up[1] / high)
-    total = (0.0, 0.0, 0.0, 0.0)
+    total, share = (0.0, 0.0, 0.0, 0.0), max(abs(area), LEAST_SHARE) / (across * high)
     for k in range(across * high):
         x, y = k % across + 0.5 - 0.5 * across, k // across + 0.5 - 0.5 * high
         point = (region.point[0] + x * right[0] + y * up[0], region.point[1] + x * right[1] + y * up[1])
-        total = plus(total, program_part(texels, at, end, VextureRegion(point, right, up)), 1.0)
+        total = plus(total, program_part(texels, at, end, VextureRegion(point, right, up), share), 1.0)
     return times(total, PAINT_ONE / (across * high))

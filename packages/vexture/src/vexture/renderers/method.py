@@ -99,6 +99,36 @@ SHORTEST_RAMP: Final = 2.0**-22
 LONGEST_RAMP: Final = 2.0**20
 """Longest interval over which a gradient is averaged."""
 
+PICTURE_RAMP: Final = 0.25
+"""Share of a ramp that a pixel of a picture counts as, where a product of a picture and another paint is averaged."""
+
+PICTURE_AREA: Final = 256.0
+"""Most pixels of a level in a footprint; coarser levels have at least a quarter of them, for errors of 2/255."""
+
+PICTURE_LENGTH: Final = 2.0**-4
+"""Least area that determines the level, relative to the square of a footprint's length: 64 pixels are the longest."""
+
+SMOOTH_AREA: Final = 48.0
+"""Most pixels in a footprint that are interpolated; in a larger one, steps between pixels change a mean by 2/255."""
+
+SHORT_SMOOTH: Final = 2.0**-4
+"""Pixels. A shorter footprint of interpolated pixels is replaced by an upright one with the same variances."""
+
+LEAST_SMOOTH: Final = 2.0**-6
+"""Pixels. Least side of that footprint: differences of smaller ones lose their digits."""
+
+LEAST_OUTLINE: Final = 2.0**-18
+"""Pixels. Least side of any footprint in a picture."""
+
+THINNEST_OUTLINE: Final = 2.0**-8
+"""Least width of a footprint in a picture, as a share of its length."""
+
+PICTURE_LINES: Final = 130
+"""More rows or columns than such a footprint has: bounds the work for invalid texels."""
+
+PICTURE_FAR: Final = 2.0**24
+"""Pixels. Farther from a picture's corner, a footprint has the mean of the whole picture."""
+
 GREY: Final = 2.0**-10
 """Saturation below which a colour is grey: the error of translucent colours in 16 bits; 8 bits store no less."""
 

@@ -9,9 +9,10 @@ from typing import NamedTuple
 from vexture.base.kernels import kernel
 from vexture.base.layout import COVERAGE_ONE, MOST_BYTE_PAINTS, MOST_HALF_PAINTS
 from vexture.renderers.cells import Texel, Texels, Vec2, VextureCell, Whole2, clamp, texel
-from vexture.renderers.gradient import Vec3, Vec4, VextureRegion, halves, plus, program, times
+from vexture.renderers.gradient import VextureRegion, halves, program
 from vexture.renderers.method import LEAST_SHARE, NEARLY_WHOLE, NO_SHARE, NOTHING
 from vexture.renderers.moment import VextureShare, area_share, plus_share
+from vexture.renderers.vectors import Vec3, Vec4, plus, times
 
 
 class VexturePlanar(NamedTuple):

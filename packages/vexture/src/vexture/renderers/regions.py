@@ -1,14 +1,14 @@
-"""Faces with gradients between two chords, merged from slab to slab, for the exact renderer.
+"""Faces with gradients or pictures between two chords, merged from slab to slab, for the exact renderer.
 
 A slab ends wherever any chord of its row does, so a row has hundreds of slabs. A *region* continues from slab to slab
 while the same chords bound the same face. Likewise, a column of the image that a face fills continues while regions of
 the face fill it. So a few large cells are integrated instead of very many thin ones.
 
 The colour of such a face varies within a pixel. Its integral over the part of a region in one column, a *cell*, is an
-integral over y of integrals over x. Each line is cut where a ramp has a corner or a jump (`vexture.renderers.ramps`).
-The cell is cut where the cuts of its lines begin, end or turn. Between cuts the colour is smooth, except for corners
-that blend modes make. There, Gauss-Legendre quadrature with one, two and three points is refined until more points
-change nothing.
+integral over y of integrals over x. Each line is cut where a ramp has a corner or a jump (`vexture.renderers.ramps`),
+or a picture a seam (`vexture.renderers.samples`). The cell is cut where the cuts of its lines begin, end or turn.
+Between cuts the colour is smooth, except for corners that blend modes make. There, Gauss-Legendre quadrature with one,
+two and three points is refined until more points change nothing.
 """
 
 from typing import Final, NamedTuple
@@ -20,6 +20,7 @@ from vexture.base.kernels import kernel
 from vexture.base.tolerance import STEADY
 from vexture.renderers.faces import FLAT, MEMBERS, PathStack, SweepFaces, composite
 from vexture.renderers.ramps import MOST_CUTS, Place, add_cut, cut_line, cut_turns
+from vexture.renderers.samples import cut_corners, cut_seams
 
 MOST_HALVINGS: Final = (64, 256)
 """Most halvings in a cell, and in a line of it; the rest is then integrated without refinement."""
@@ -84,19 +85,40 @@ def add_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, room: Room, ch
 
 @kernel(allocates=False)
 def cut_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[np.float64]) -> int:
-    """Cut a cell, from top to bottom, where edges leave the column, and where a ramp's corners begin, end or turn."""
+    """Cut a cell, from top to bottom, where edges leave the column, and where corners or seams begin, end or turn."""
     column, beyond = float(cell.column), cell.column + 1.0
     count = 0
     for high, low in (cell.left, cell.right):
         for x in (column, beyond):
             count = add_cut((x - high) / (low - high), cuts, count)
+    ramps = len(stack.ramps.radial)
     for path in faces.members[cell.start : cell.end]:
         k = stack.shades[path]
-        if k >= 0:
+        if k >= ramps:
+            count = cut_picture(cell, stack, k - ramps, cuts, count)
+        elif k >= 0:
             for high, low in (cell.left, cell.right, (column, column), (beyond, beyond)):
                 count = cut_line(stack.ramps, k, (high, cell.top), (low, cell.bottom), cuts, count)
             for high, low in ((column, beyond), (beyond, column)):
                 count = cut_turns(stack.ramps, k, (high, cell.top), (low, cell.bottom), cuts, count)
+    return count
+
+
+@kernel(allocates=False)
+def cut_picture(cell: SlabCell, stack: PathStack, k: int, cuts: NDArray[np.float64], count: int) -> int:
+    """Cut a cell at the seams of a picture, where they meet its edges, in the column, or one another."""
+    column, beyond = float(cell.column), cell.column + 1.0
+    count = cut_corners(stack.samples, k, (column, cell.top), (beyond, cell.bottom), cuts, count)
+    height = cell.bottom - cell.top
+    for high, low in (cell.left, cell.right, (column, column), (beyond, beyond)):
+        start, end = 0.0, 1.0
+        if low != high:
+            one, other = (column - high) / (low - high), (beyond - high) / (low - high)
+            start, end = max(min(one, other), 0.0), min(max(one, other), 1.0)
+        if start < end:
+            begin = high + start * (low - high), cell.top + start * height
+            last = high + end * (low - high), cell.top + end * height
+            count = cut_seams(stack.samples, k, begin, last, (start, end), cuts, count)
     return count
 
 
@@ -126,10 +148,13 @@ def sum_line(cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, f
     """Integrate the colour along a horizontal line."""
     line, points = room.sums[LINE], room.sums[POINTS]
     line[:] = 0.0
-    cuts = 0
+    cuts, ramps = 0, len(stack.ramps.radial)
     for path in faces.members[cell.start : cell.end]:
-        if stack.shades[path] >= 0:
-            cuts = cut_line(stack.ramps, stack.shades[path], (x0, y), (x1, y), room.across, cuts)
+        k = stack.shades[path]
+        if k >= ramps:
+            cuts = cut_seams(stack.samples, k - ramps, (x0, y), (x1, y), (0.0, 1.0), room.across, cuts)
+        elif k >= 0:
+            cuts = cut_line(stack.ramps, k, (x0, y), (x1, y), room.across, cuts)
     start, halvings = x0, 0
     for k in range(cuts + 1):
         next_cut = x0 + room.across[k] * (x1 - x0) if k < cuts else x1

@@ -123,6 +123,7 @@ def shader_source(
     wrap: str = "none",
     flat: bool = False,
     gradients: bool = True,
+    pictures: bool | None = None,
     linear: bool = False,
 ) -> str:
     """Shader text with the functions of a part of vexture, to put before a fragment shader's own text.
@@ -151,6 +152,8 @@ def shader_source(
         True if the functions of ``"sheets"`` call the flat ones.
     gradients : bool
         True if a drawing may have gradients; without them the shader is faster.
+    pictures : bool, optional
+        True if a drawing may have pictures; without them the shader is faster. By default as `gradients`.
     linear : bool
         True to average colours in linear light; False to average in sRGB, as browsers do.
 
@@ -173,7 +176,8 @@ def shader_source(
     ):
         if value not in allowed:
             raise ParameterError(f"`{name}` is {value!r}; there are {', '.join(map(repr, allowed))}")
-    numbers = {"FLAT": int(bool(flat)), "GRADIENTS": int(bool(gradients)), "LINEAR": int(bool(linear))}
+    programs = 2 if (gradients if pictures is None else pictures) else int(bool(gradients))
+    numbers = {"FLAT": int(bool(flat)), "GRADIENTS": programs, "LINEAR": int(bool(linear))}
     numbers["WRAP"] = WRAPS[wrap]
     text = wgsl_text(part) if version == WGSL else shader_text(PARTS[part])
     used = {f"VEXTURE_{name}": value for name, value in numbers.items() if f"VEXTURE_{name}" in text}
@@ -212,9 +216,12 @@ def view_source(version: str, is_flat: bool) -> str:
     )
 
 
-def color_source(version: str, is_flat: bool, is_linear: bool, has_gradients: bool) -> str:
-    """Fragment shader that draws a planar map, with or without gradients, averaged in linear light or in sRGB."""
-    numbers = {"FLAT": is_flat, "LINEAR": is_linear, "GRADIENTS": has_gradients}
+def color_source(version: str, is_flat: bool, is_linear: bool, gradients: int) -> str:
+    """Fragment shader that draws a planar map, averaged in linear light or in sRGB.
+
+    `gradients` is 0 for a map without programs, 1 for one with gradients, and 2 for one with pictures.
+    """
+    numbers = {"FLAT": is_flat, "LINEAR": is_linear, "GRADIENTS": gradients}
     lines = "".join(f"#define VEXTURE_{name} {int(value)}\n" for name, value in numbers.items())
     return VERSIONS[version] + lines + shader_text("view_color.glsl") + COLOR_MAIN
 

@@ -70,12 +70,13 @@ def shape_of(
     start = time.perf_counter()
     framed = None
     if kind is FileKind.SVG:
-        images = images_of(folder, traced=parameters.trace_images)
+        images = images_of(folder, parameters.images)
         fonts = parameters.fonts or ()
         given: dict[str, Any] = {"fonts": fonts, "images": images, "page_colors": parameters.page_colors}
         drawing, framed = framed_drawing(plain, file_name, parameters.select, **given)
     else:
-        drawing = read_drawing(plain, name=file_name, select=parameters.select)
+        reading: dict[str, Any] = {"select": parameters.select, "images": parameters.images}
+        drawing = read_drawing(plain, name=file_name, for_outlines=parameters.split is None, **reading)
     named = replace(drawing, name=name)
     shape = shape_of_drawing(named, file_name, parameters, start)
     if parameters.precision is not None:
@@ -121,7 +122,7 @@ def shape_of_drawing(drawing: "Drawing", file_name: str, parameters: Parameters,
     """Convert a drawing into a shape, with the facts of its conversion; the notes, if any, form one line."""
     from vexture.conversion.pipeline import combine, trees_of
 
-    reading = replace(parameters, select=None, fonts=None, trace_images=False, page_colors=None)  # already read
+    reading = replace(parameters, select=None, fonts=None, images="draw", page_colors=None)  # already read
     part = trees_of(drawing, reading)
     texture = combine([part], drawing.name, PurePath(file_name).name)
     milliseconds = 1000.0 * (time.perf_counter() - start)

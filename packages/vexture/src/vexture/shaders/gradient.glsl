@@ -1,13 +1,12 @@
-// Paints that hold gradients (FORMAT.md, D.6): the colour of a program over a region, the part of a footprint in a cell.
+// Paints that hold gradients or pictures (FORMAT.md, D.6): the colour of a program over a region, the part of a footprint
+// in a cell.
 // Exports: VextureRegion, vexture_halves, vexture_program.
 //
-// VEXTURE_GRADIENTS is 0 if no map has programs: their text is then left out, because it takes registers.
+// VEXTURE_GRADIENTS is 0 if no map has programs: their text is then left out, because it takes registers. It is 2 if
+// programs may hold pictures.
 #include "tree.glsl"
 #include "blend.glsl"
-
-#ifndef VEXTURE_GRADIENTS
-#define VEXTURE_GRADIENTS 1
-#endif
+#include "picture.glsl"
 
 // In the unit square.
 struct VextureRegion {
@@ -218,6 +217,31 @@ vec4 vexture_gradient(uint at, uvec4 record, uint number, VextureRegion region) 
     return mean;
 }
 
+#if VEXTURE_GRADIENTS == 2
+
+// A parallelogram in the pixels of a picture, from the picture's first texel: its middle and its sides.
+VextureRegion vexture_picture_region(uint at, VextureRegion region) {
+    vec3 across = uintBitsToFloat(vexture_texel(at + 1u).xyz);
+    vec3 down = uintBitsToFloat(vexture_texel(at + 2u).xyz);
+    vec2 point = vec2(dot(across.xy, region.point) + across.z, dot(down.xy, region.point) + down.z);
+    vec2 right = vec2(dot(across.xy, region.right), dot(down.xy, region.right));
+    return VextureRegion(point, right, vec2(dot(across.xy, region.up), dot(down.xy, region.up)));
+}
+
+// Premultiplied mean colour of a picture, from its first texel and the texel's index, over a region that has this share of
+// a pixel.
+vec4 vexture_picture(uint at, uvec4 record, VextureRegion region, float share) {
+    ivec2 size = max(ivec2(uvec2(record.y & 0xffffu, record.y >> 16)), 1);
+    bool is_smooth = (record.w & 1u) != 0u;
+    VextureRegion pixels = vexture_picture_region(at, region);
+    VextureLevel level = VextureLevel(size, at + record.z);
+    vec4 mean = vexture_picture_mean(level, is_smooth, pixels.point, pixels.right, pixels.up, share);
+    float opacity = float(record.x & 0xffffu) / float(VEXTURE_PAINT_ONE);
+    return opacity / float(VEXTURE_COVERAGE_ONE) * mean;
+}
+
+#endif
+
 // Ends a group: lays its colour on the colour kept at its begin, or masks that colour with it.
 vec4 vexture_ended(vec4 kept, vec4 color, uint how) {
     if (how < uint(VEXTURE_MASKS)) {
@@ -227,8 +251,9 @@ vec4 vexture_ended(vec4 kept, vec4 color, uint how) {
     return kept * (how == uint(VEXTURE_MASKS + VEXTURE_MASK_LUMINANCE) ? dot(parts, color.rgb) : color.a);
 }
 
-// Premultiplied colour of a program over a region that is small enough for means of its gradients to be composited.
-vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
+// Premultiplied colour of a program over a region that is small enough for means of its gradients to be composited, and has
+// this share of a pixel.
+vec4 vexture_program_part(uint at, uint end, VextureRegion region, float share) {
     vec4 color = vec4(0.0);
     vec4 kept = vec4(0.0);
     vec4 kept_before = vec4(0.0);
@@ -248,6 +273,12 @@ vec4 vexture_program_part(uint at, uint end, VextureRegion region) {
             kept_before = kept_first;
         } else if (kind != uint(VEXTURE_KIND_FOLLOWS)) {
             vec4 above = vexture_halves(texel.xy) / float(VEXTURE_PAINT_ONE);
+#if VEXTURE_GRADIENTS == 2
+            if (kind == uint(VEXTURE_KIND_PICTURE)) {
+                above = vexture_picture(at, texel, region, share);
+                kind = uint(VEXTURE_KIND_SOLID);  // as its colour is known
+            }
+#endif
             if (kind != uint(VEXTURE_KIND_SOLID)) {
                 uint number = clamp((texel.w >> VEXTURE_STOP_BITS) & uint(VEXTURE_MOST_STOPS), 1u, max(left, 1u));
                 left -= min(number, left);
@@ -282,6 +313,13 @@ vec2 vexture_program_parts(uint at, uint end, VextureRegion region, float area) 
             bends = max(bends, ramp.parts);
             ramps = max(ramps, vexture_spans(ramp.way, region));
         }
+#if VEXTURE_GRADIENTS == 2
+        if (kind == uint(VEXTURE_KIND_PICTURE)) {
+            VextureRegion pixels = vexture_picture_region(at, region);
+            factors++;
+            ramps = max(ramps, VEXTURE_PICTURE_RAMP * vec2(length(pixels.right), length(pixels.up)));
+        }
+#endif
     }
     ramps = factors > 1 ? max(bends, for_each * ramps) : bends;
     float most = clamp(float(VEXTURE_PIXEL_PARTS) * sqrt(abs(area)), 1.0, float(VEXTURE_MOST_RAMP_PARTS));
@@ -296,11 +334,12 @@ vec4 vexture_program(uint at, uint count, VextureRegion region, float area) {
     int across = int(parts.x);
     int number = across * int(parts.y);
     VextureRegion part = VextureRegion(region.point, region.right / parts.x, region.up / parts.y);
+    float share = max(abs(area), VEXTURE_LEAST_SHARE) / float(number);
     vec4 sum = vec4(0.0);
     for (int k = 0; k < number; k++) {
         vec2 place = vec2(ivec2(k % across, k / across)) + 0.5 - 0.5 * parts;
         part.point = region.point + place.x * part.right + place.y * part.up;
-        sum += vexture_program_part(at, end, part);
+        sum += vexture_program_part(at, end, part, share);
     }
     return sum * (float(VEXTURE_PAINT_ONE) / float(number));
 }

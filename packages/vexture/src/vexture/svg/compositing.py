@@ -134,7 +134,7 @@ def has_colors(drawing: Drawing) -> bool:
     """Return whether the visible part of a drawing has several colours; opacities and masks do not count."""
     masks = masking(drawing.groups)
     paints = {path.paint for path in drawing.paths if path.group < 0 or not masks[path.group]}
-    return len({paint.color for paint in paints}) > 1 or any(paint.gradient is not None for paint in paints)
+    return len({paint.color for paint in paints}) > 1 or any(paint.is_varied for paint in paints)
 
 
 def drop_empty_groups(paths: tuple[Path, ...], groups: tuple[Group, ...]) -> tuple[tuple[Path, ...], tuple[Group, ...]]:

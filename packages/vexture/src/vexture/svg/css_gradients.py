@@ -9,9 +9,10 @@ from typing import Any, Final
 
 import tinycss2
 
+from vexture.drawing.affine import Affine
 from vexture.drawing.calculation import keyword, parse_tokens, split_arguments
 from vexture.drawing.colors import Color, parse_color
-from vexture.drawing.paint import Affine, Gradient, Paint, Spread, Stop
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 from vexture.svg.style import ElementStyle
 from vexture.svg.transform import KEYWORDS, Length, angle, parse_origin
 from vexture.svg.values import Viewport, words

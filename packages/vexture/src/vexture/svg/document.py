@@ -84,7 +84,7 @@ def explain_error(message: str) -> str:
     if "xcessive depth" in message:
         return "its elements are nested more than 256 deep; flatten its groups"
     if "XML_PARSE_HUGE" in message or "too long" in message or "too large" in message.lower():
-        return "an attribute or text is longer than 10,000,000 characters; split it, for instance one path into several"
+        return "an attribute or text is longer than 10,000,000 characters; split a path, or link to a picture in a file"
     if message.startswith("Entity"):
         return f"{message[:120]}; only entities that the file itself defines are read, external ones never"
     return f"not well-formed XML: {message[:160]}"

@@ -8,7 +8,8 @@ import numpy as np
 from lxml import etree
 
 from vexture.bezier.bounds import bounds
-from vexture.drawing.paint import Affine, Gradient, Paint, Spread, Stop
+from vexture.drawing.affine import Affine
+from vexture.drawing.paint import Gradient, Paint, Spread, Stop
 from vexture.svg.document import local_name
 from vexture.svg.outline import ShapeOutline
 from vexture.svg.report import Report

@@ -1,4 +1,4 @@
-"""Images in an SVG (SVG 2, 12.3): drawings are drawn, and pictures are traced if requested.
+"""Images in an SVG (SVG 2, 12.3): drawings and pictures are drawn; pictures are traced, or left out, if requested.
 
 Only data: URLs are read. If a folder is given, files in it and below are read, too, but not through symbolic links that
 lead out.
@@ -13,15 +13,19 @@ from pathlib import Path
 from typing import Final, Protocol, TypeAlias
 from urllib.parse import unquote, unquote_to_bytes
 
+import numpy as np
 from lxml import etree
 
 from vexture.base.content import BEFORE_MARKUP, FileKind, kind_of, picture_size, read_bytes, start_of, unpack_source
+from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, SourceError, shorten_text
-from vexture.drawing.drawing import Drawing
+from vexture.bezier.convert import line_cubics
+from vexture.drawing.drawing import Drawing, FillRule
 from vexture.svg.document import parse_svg
 from vexture.svg.gradients import rows
 from vexture.svg.links import reference
 from vexture.svg.painter import Painter
+from vexture.svg.pictures import EmbeddedPicture
 from vexture.svg.report import Report
 from vexture.svg.space import ContentWindow, ElementPlace
 from vexture.svg.transform import Identity, Transform, map_points
@@ -45,17 +49,22 @@ SHOWN: Final = 40
 """Longest file name in a message, in characters."""
 
 
-ImageContent: TypeAlias = etree._Element | Drawing
-"""Root of a drawing, or a traced picture."""
+ImageContent: TypeAlias = etree._Element | Drawing | EmbeddedPicture
+"""Root of a drawing, or a picture, which is traced if it is a `Drawing`."""
+
+MOST_PIXELS: Final = 100_000_000
+"""Most pixels of all pictures of a drawing, as their files declare; each file has a limit of its own."""
 
 
 @dataclass(frozen=True, slots=True)
 class Images:
     """The images that a drawing may contain."""
 
-    trace: Callable[[bytes], Drawing] | None = None  # traces a picture's content; None leaves pictures out
+    trace: Callable[[bytes], Drawing] | None = None  # traces a picture's content; None draws its pixels
     folder: Path | None = None  # folder with files that may be read
     depth: int = 0
+    has_pictures: bool = True  # False leaves them out
+    shown: dict[int, EmbeddedPicture] = field(default_factory=dict)  # pictures that are drawn, by the ids of pixels
     known: dict[tuple[int, str], ImageContent | SourceError | LimitError] = field(
         default_factory=dict
     )  # by depth and link
@@ -66,7 +75,7 @@ class Images:
         return replace(self, folder=None, depth=self.depth + 1)
 
     def read(self, link: str) -> ImageContent:
-        """Return the root of a linked drawing, or a traced picture; raise a `SourceError` or `LimitError` otherwise.
+        """Return the root of a linked drawing, or a picture; raise a `SourceError` or `LimitError` otherwise.
 
         The error is the text of a note: it names the image, and the reason why it is left out.
         """
@@ -89,14 +98,28 @@ class Images:
         start = start_of(content) or read_bytes(content)
         kind = kind_of(start)
         if kind is FileKind.PICTURE:
-            if self.trace is None:
-                raise SourceError("`trace_images` traces it")
-            return self.trace(read_bytes(content))
+            return self.open_picture(read_bytes(content), link)
         if kind is not FileKind.SVG or not start.lstrip(BEFORE_MARKUP).startswith(b"<"):
             raise SourceError("it is empty" if not start else "it is no SVG, PNG, JPEG, WebP, GIF or BMP")
         if self.depth >= DEEPEST:
             raise LimitError(f"drawings in it are nested more than {DEEPEST} deep")
         return parse_svg(read_bytes(content))
+
+    def open_picture(self, content: bytes, link: str) -> ImageContent:
+        """Decode or trace a picture."""
+        if not self.has_pictures:
+            raise SourceError("pictures are left out")
+        check_time()
+        size = picture_size(content)
+        pixels = 0 if size is None else size[1] * size[2]
+        drawn = [*self.known.values()]
+        if pixels + sum(int(each.size[0] * each.size[1]) for each in drawn if isinstance(each, EmbeddedPicture)) > (
+            MOST_PIXELS
+        ):
+            raise LimitError(f"the pictures of the drawing have more than {MOST_PIXELS:,} pixels")
+        if self.trace is not None:
+            return self.trace(content)
+        return EmbeddedPicture.from_content(content, image_label(link))
 
     def beside(self, link: str) -> Path:
         """Return the path of a file in the folder or below it."""
@@ -197,18 +220,46 @@ def paint_image(scene: ImageScene, element: etree._Element, place: ElementPlace,
     if min(*sides[2:], width, height) < THINNEST:
         return
     content = Identity.translate(*sides[:2]).transform(scene.fit(element, (0.0, 0.0, width, height), *sides[2:]))
-    visible = None if place.style["overflow"].lower() in ("visible", "auto") else sides
+    is_cut = place.style["overflow"].lower() not in ("visible", "auto") or not isinstance(found, etree._Element)
+    visible = sides if is_cut else None  # browsers show nothing of a picture beyond its sides
     inner = ContentWindow(visible, content, (width, height)).within(place)
-    if not isinstance(found, Drawing):
+    if isinstance(found, Drawing):
+        paint_traced(scene, element, found, inner, painter)
+    elif isinstance(found, EmbeddedPicture):
+        paint_picture(scene, element, found, inner, painter)
+    else:
         scene.paint_embedded(found, inner, painter)
-        return
+
+
+def paint_picture(
+    scene: ImageScene, element: etree._Element, found: EmbeddedPicture, place: ElementPlace, painter: Painter
+) -> None:
+    """Paint a picture as a rectangle; one unit of the place is a pixel of its file."""
+    width, height = found.size
+    corners = np.array([(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)])
+    paint = found.paint_with(place.style["image-rendering"]).after(rows(place.space.whole.inverse()))
+    painter.add([line_cubics(corners, np.roll(corners, -1, axis=0))], place, FillRule.NONZERO, paint, place.name)
+    for remark in found.remarks:
+        scene.report.simplification(f"{found.label} ({remark})", element)
+    if found.is_turned and place.style["image-orientation"].lower() == "none":
+        scene.report.simplification(
+            f"{found.label} (it is turned upright, although image-orientation is none)", element
+        )
+    assert found.paint.picture is not None
+    scene.images.shown[id(found.paint.picture.pixels)] = found
+
+
+def paint_traced(
+    scene: ImageScene, element: etree._Element, found: Drawing, place: ElementPlace, painter: Painter
+) -> None:
+    """Paint a traced picture; one unit of the place is a pixel of its file."""
     scene.report.simplification("<image> traced", element)
     (a, b, c), (d, e, f) = found.to_source.tolist()
     to_pixels = Transform(a, d, b, e, c, f)
-    to_unit = rows(inner.space.whole.transform(to_pixels).inverse())
+    to_unit = rows(place.space.whole.transform(to_pixels).inverse())
     for path in found.paths:
         contours = [map_points(contour, to_pixels) for contour in path.contours]
-        painter.add(contours, inner, path.fill_rule, path.paint.after(to_unit), place.name)
+        painter.add(contours, place, path.fill_rule, path.paint.after(to_unit), place.name)
 
 
 def size_of(found: ImageContent) -> tuple[float, float]:
@@ -216,6 +267,8 @@ def size_of(found: ImageContent) -> tuple[float, float]:
     if isinstance(found, Drawing):  # its pixels start at 0, 0 and are centred in the unit square
         (side, _, left), (_, _, bottom) = found.to_source.tolist()
         return side + 2.0 * left, 2.0 * bottom - side
+    if isinstance(found, EmbeddedPicture):
+        return found.size
     return own_size(found)
 
 

@@ -155,8 +155,8 @@ class PatternTiles:
         return (self.last[0] - self.first[0]) * (self.last[1] - self.first[1])
 
     def cost(self, path: Path) -> tuple[int, int]:
-        """Return the number of cubics and of gradients that `repeat_path` makes of a path."""
-        if path.paint.gradient is not None:
+        """Return the number of cubics and of gradients or pictures that `repeat_path` makes of a path."""
+        if path.paint.is_varied:
             return self.count * sum(map(len, path.contours)), self.count
         columns, rows = self.last[0] - self.first[0], self.last[1] - self.first[1]
         cubics = 0
@@ -167,7 +167,7 @@ class PatternTiles:
 
     def repeat_path(self, path: Path) -> list[Path]:
         """Repeat a path of the first tile in all tiles."""
-        if path.paint.gradient is not None:
+        if path.paint.is_varied:
             return [copy for at in self._places(False, False) for copy in self._gradient_tile(path, at)]
         contours: list[NDArray[np.float64]] = []
         for contour in path.contours:
@@ -186,7 +186,7 @@ class PatternTiles:
         return np.stack(np.meshgrid(columns, rows), axis=-1).reshape(-1, 2)
 
     def _gradient_tile(self, path: Path, at: NDArray[np.float64]) -> Iterator[Path]:
-        """Yield a path with a gradient, in one tile."""
+        """Yield a path with a gradient or a picture, in one tile."""
         check_time()
         contours = [part for contour in path.contours for part in self._move_contour(contour, at[None], at[None] + 1.0)]
         if contours:

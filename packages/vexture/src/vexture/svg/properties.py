@@ -86,6 +86,11 @@ OPACITY = rf"{NUMBER}(?:%|\.)?"  # Graphviz writes 1. for 1
 
 MODE = "alpha|luminance|match-source"
 
+RENDERINGS = (
+    *("auto", "smooth", "high-quality", "pixelated", "crisp-edges", "-moz-crisp-edges", "-webkit-optimize-contrast"),
+    *("optimizespeed", "optimizequality"),
+)
+
 SPACING = rf"normal|{LENGTH}"
 
 FONT_SIZES = "(?:xx?-)?(?:small|large)|medium|smaller|larger"
@@ -168,6 +173,8 @@ PROPERTIES: dict[str, Property] = {
     "filter": Property("none", False, anything),
     "height": Property("auto", False, matching(f"auto|{SIZE}")),
     "inline-size": Property("auto", False, anything),
+    "image-orientation": Property("from-image", True, anything),
+    "image-rendering": Property("auto", True, one_of(*RENDERINGS)),
     "isolation": Property("auto", False, one_of("auto", "isolate")),
     "mask": Property("none", False, anything),
     "mask-mode": Property("match-source", False, matching(rf"(?:{MODE})(?:\s*,\s*(?:{MODE}))*+")),
@@ -229,6 +236,7 @@ CSS_ONLY = frozenset(
         ),
         *("font-variant-ligatures", "font-variant-numeric", "font-variant-position", "font-variation-settings"),
         *(
+            "image-orientation",
             "isolation",
             "mask-mode",
             "mix-blend-mode",

@@ -22,6 +22,7 @@ from vexture.svg.frames import EMPTY, Frame, frame, painted_frame
 from vexture.svg.images import Images
 from vexture.svg.note_elements import subject_of
 from vexture.svg.page import CURRENT_IS_BLACK, Page, unused_colors
+from vexture.svg.pictures import fit_into_budget
 from vexture.svg.report import Report
 from vexture.svg.scene import SvgScene
 from vexture.svg.select import UNPAINTED, SelectedPart, chosen, nothing_painted, unpainted_note, with_symbols_used
@@ -45,10 +46,11 @@ def read_svg(
     Shapes, paths, texts, groups, `use`, `symbol`, `switch`, nested `svg`, transforms, CSS and strokes are drawn as in
     browsers. Opacity, blend modes, clips and masks that affect several paths together become `Drawing.groups`.
     Gradients are read in full (`Paint.gradient`), patterns as the paths of their tiles, markers as the paths of their
-    content. Images that are drawings are read, too, whether embedded or in files in the folder of the drawing and
-    below; `vexture.read` can also trace pictures. Notes list everything unsupported, which is left out. A path is named
-    (`Path.element`) by the ``id`` of its element or of the nearest element around it; the content of a `use`, a marker
-    or a pattern by that of the `use` or the shape; a stroke is ``id/stroke``.
+    content. Images are read, too, whether embedded or in files in the folder of the drawing and below: drawings, and
+    pictures as the paints of rectangles (`Paint.picture`), which `vexture.read` can also trace or leave out. Notes list
+    everything unsupported, which is left out. A path is named (`Path.element`) by the ``id`` of its element or of the
+    nearest element around it; the content of a `use`, a marker or a pattern by that of the `use` or the shape; a stroke
+    is ``id/stroke``.
 
     The box of the drawing is the outermost viewport: `width` and `height`, or the size in `viewBox` if one of them is
     missing or a percentage. A side that neither gives is 300 or 150 pixels long, as in browsers, with a note.
@@ -198,6 +200,8 @@ def read_document(request: Request) -> ReadResult:
         scene = SvgScene(root, report, request.images, elements, request.names, request.fonts, request.page)
         framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
         drawing, to_pixels = drawing_of(scene, framed, request.name)
+        paths = fit_into_budget(drawing.paths, [*request.images.shown.values()], report)
+        drawing = replace(drawing, paths=paths)
     except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
         raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
     if scene.servers.cascade.reveals:

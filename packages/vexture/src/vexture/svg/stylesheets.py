@@ -60,7 +60,7 @@ OTHER_NAMES: Final = """
     flex-basis flex-direction flex-flow flex-grow flex-shrink flex-wrap float font-display font-optical-sizing
     font-palette gap grid grid-area grid-auto-columns grid-auto-flow grid-auto-rows grid-column grid-column-end
     grid-column-gap grid-column-start grid-gap grid-row grid-row-end grid-row-gap grid-row-start grid-template
-    grid-template-areas grid-template-columns grid-template-rows hyphens image-orientation image-rendering inset
+    grid-template-areas grid-template-columns grid-template-rows hyphens inset
     inset-block inset-inline interpolate-size justify-content justify-items justify-self left line-break line-clamp
     line-height list-style list-style-image list-style-position list-style-type margin margin-block margin-bottom
     margin-inline margin-left margin-right margin-top mask-border mask-clip mask-composite mask-image mask-origin

@@ -120,18 +120,19 @@ def texture_from(data: bytes, source: str) -> Texture:
             raise FormatError("it is a fold, which three.js applies to the texture of a shape; give that texture here")
         for key, known in (
             (layout.TEXT_ENCODING, (layout.ENCODING_PACKED,)),
-            (layout.TEXT_VERSION, (layout.PACKED_VERSION, layout.MAP_VERSION)),
+            (layout.TEXT_VERSION, (layout.PACKED_VERSION, layout.MAP_VERSION, layout.PICTURE_VERSION)),
         ):
             if texts.get(key) not in known:
-                found, read = repr(texts.get(key))[:80], " and ".join(map(repr, known))
+                found, read = repr(texts.get(key))[:80], ", ".join(map(repr, known))
                 raise FormatError(f"{key} is {found}; this program reads {read}; update it or {REMEDY}")
         name = texts.get(layout.TEXT_NAME) or Path(source).name.removesuffix(layout.PACKED_SUFFIX)
         roots = read_roots(texts.get(layout.TEXT_ROOTS, ""), read_value(data, layout.TEXT_STYLES))
         texture = Texture(texels, roots, name, texts.get(layout.TEXT_SOURCE))
         if texture.version != texts[layout.TEXT_VERSION]:
             raise FormatError(
-                f"{layout.TEXT_VERSION} is {texts[layout.TEXT_VERSION]!r}, but with maps it is {layout.MAP_VERSION!r} "
-                f"and without {layout.PACKED_VERSION!r}; {REMEDY}"
+                f"{layout.TEXT_VERSION} is {texts[layout.TEXT_VERSION]!r}, but with pictures it is "
+                f"{layout.PICTURE_VERSION!r}, with maps {layout.MAP_VERSION!r} and without "
+                f"{layout.PACKED_VERSION!r}; {REMEDY}"
             )
         texture.check()
     except FormatError as error:

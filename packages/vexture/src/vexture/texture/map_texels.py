@@ -33,7 +33,6 @@ class _Places(NamedTuple):
     sides: int
     paints: int
     operations: int
-    stops: int
     end: int
 
 
@@ -48,7 +47,7 @@ def encode_map(planar: MapArrays, first: int) -> NDArray[np.uint32]:
         return np.zeros((0, 4), np.uint32)
     texels = np.zeros((at.end - first, 4), np.uint32)
     if len(planar.table.code) > 0:
-        texels[0, 0], texels[0, 1], texels[0, 2] = at.operations, operations, at.end - at.stops
+        texels[0, 0], texels[0, 1], texels[0, 2], texels[0, 3] = at.operations, operations, runs.texels, runs.pixels
     texels[1, 0], texels[1, 1], texels[1, 2], texels[1, 3] = len(planar.paints), at.cells, at.sides, at.paints
     _write_quads(planar, straight, at, texels[MAP_HEAD:])
     _write_curves(planar, straight, texels[at.curves - first :])
@@ -77,9 +76,8 @@ def _places(planar: MapArrays, curves: int, operations: int, runs: StopRuns, fir
     at_sides = at_cells + quads + (quads + (1 << packing) - 1 >> packing)
     at_paints = at_sides + (len(planar.sides) + (2 << packing) - 1 >> packing + 1)
     at_operations = at_paints + (len(planar.paints) + 1 >> 1)
-    at_stops = at_operations + operations
-    places = (at_curves, at_cells, at_sides, at_paints, at_operations, at_stops)
-    return _Places(first + MAP_HEAD, *places, at_stops + runs.texels)
+    places = (at_curves, at_cells, at_sides, at_paints, at_operations)
+    return _Places(first + MAP_HEAD, *places, at_operations + operations + runs.texels + runs.pixels)
 
 
 @kernel

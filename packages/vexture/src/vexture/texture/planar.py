@@ -10,11 +10,9 @@ from vexture.base.errors import FormatError, LimitError
 from vexture.texture.curves import LeafCurves, leaf_points, texels_in
 from vexture.texture.map_texels import encode_map
 from vexture.texture.program_texels import count_operations, stop_runs
-from vexture.texture.programs import halves, read_programs
+from vexture.texture.programs import ProgramTexels, check_programs, halves, read_programs
 from vexture.texture.walk import REMEDY, WalkLevel, walk
 from vexture.tree.planar.map import PlanarMap
-from vexture.tree.planar.programs import ProgramTable
-from vexture.tree.planar.shades import Shades
 
 
 def map_texels(planar: PlanarMap, at: int) -> NDArray[np.uint32]:
@@ -69,6 +67,11 @@ def head_of(flat: NDArray[np.uint32], quad: int) -> MapHead:
     return MapHead(*flat[quad - 1].tolist())
 
 
+def holds_pictures(flat: NDArray[np.uint32], quad: int) -> bool:
+    """Whether the head of an unchecked map says that there are texels of pixels."""
+    return layout.MAP_HEAD <= quad <= len(flat) and bool(flat[quad - layout.MAP_HEAD, 3])
+
+
 PARTS: Final = ("head", "quads", "curves", "cells", "sides", "paints", "programs")
 
 
@@ -88,6 +91,7 @@ class MapTexels(NamedTuple):
     programs: int
     operations: int  # number of texels of programs; those of stops follow
     stops: int
+    pixels: int  # those of pictures, after the stops
 
     @property
     def ranges(self) -> list[tuple[int, int]]:
@@ -100,7 +104,7 @@ class MapTexels(NamedTuple):
             (self.cells, self.cells + quads + -(-quads // quads_in_block(self.used))),
             (self.sides, self.sides + -(-len(self.points) // sides_in_texel(self.used))),
             (self.paints, self.paints + (self.used + 1) // 2),
-            (self.programs, self.programs + self.operations + self.stops),
+            (self.programs, self.programs + self.operations + self.stops + self.pixels),
         ]
 
 
@@ -110,8 +114,8 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     if quad < layout.MAP_HEAD:
         raise FormatError(f"the root of a map is quad {quad}, which has no head before it; {REMEDY}")
     used, cells, sides, paints = head_of(flat, quad)
-    programs, operations, stops, rest = flat[quad - layout.MAP_HEAD].tolist()
-    if rest or (operations == 0 and programs + stops):
+    programs, operations, stops, pixels = flat[quad - layout.MAP_HEAD].tolist()
+    if operations == 0 and programs + stops + pixels:
         raise FormatError(f"the map with root {quad} has a head that is not 0 where it must be; {REMEDY}")
     if not 1 <= used <= layout.MOST_PAINTS:
         raise FormatError(f"the map with root {quad} has {used} paints; the limit is {layout.MOST_PAINTS}; {REMEDY}")
@@ -122,7 +126,7 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
             raise FormatError(f"the {what} of the map with root {quad} are not consecutive; {REMEDY}")
     first_curve = int(curves.min()) if len(curves) else 0
     points, at = _curves(flat, levels, curves)
-    parts = (cells, sides, paints, used, programs, operations, stops)
+    parts = (cells, sides, paints, used, programs, operations, stops, pixels)
     found = MapTexels(levels, quad, first_curve, len(curves), points, at, *parts)
     count = np.concatenate([level.counts for level in levels]).sum(axis=1)
     order = np.argsort(quads)
@@ -134,7 +138,7 @@ def read_map(flat: NDArray[np.uint32], quad: int) -> MapTexels:
     last = max(int(_bases(flat, found).max()), int(_sides(flat, found).max(initial=0)))
     if last >= used:
         raise FormatError(f"the map with root {quad} has paint {last} of {used}; {REMEDY}")
-    _programs(flat, found)
+    check_programs(*_programs(flat, found))
     table, means = _paints(flat, found), _means(flat, found)
     if (table[:, :3] > table[:, 3:]).any() or (means[..., :3] > means[..., 3:]).any():
         raise FormatError(f"the map with root {quad} has a colour above its opacity; {REMEDY}")
@@ -210,12 +214,12 @@ def _paints(flat: NDArray[np.uint32], found: MapTexels) -> NDArray[np.uint16]:
     return np.where(is_program[:, None], 0, halves(words)).astype(np.uint16)
 
 
-def _programs(flat: NDArray[np.uint32], found: MapTexels) -> tuple[ProgramTable, Shades]:
-    """Decode the programs of paints."""
+def _programs(flat: NDArray[np.uint32], found: MapTexels) -> tuple[ProgramTexels, dict[int, tuple[int, int]]]:
+    """Texels of programs, and the first one and the number of those of each paint that is a program."""
     words, is_program = _paint_words(flat, found)
     starts = {int(j): (int(words[j, 0]) - found.programs, int(words[j, 1])) for j in np.flatnonzero(is_program)}
-    texels = _parts(flat, found, 6)
-    return read_programs(texels[: found.operations], texels[found.operations :], starts)
+    texels, stops = _parts(flat, found, 6), found.operations + found.stops
+    return ProgramTexels(texels[: found.operations], texels[found.operations : stops], texels[stops:]), starts
 
 
 def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
@@ -239,7 +243,7 @@ def decode_map(flat: NDArray[np.uint32], quad: int) -> PlanarMap:
         found.points,
         _sides(flat, found)[number].astype(np.int32),
         _paints(flat, found),
-        *_programs(flat, found),
+        *read_programs(*_programs(flat, found)),
         np.zeros(1, np.int64),
         np.zeros(0, np.int32),
     )

@@ -108,7 +108,7 @@ def components(name: str, colour: Any) -> tuple[float, ...]:
     elif colour is None or isinstance(colour, str):
         return NOTHING
     elif isinstance(colour, Paint):
-        if colour.gradient is None:
+        if not colour.is_varied:
             return (*colour.color, colour.opacity)
     elif isinstance(colour, Sequence | np.ndarray) and len(colour) in (3, 4):
         with suppress(TypeError, ValueError):

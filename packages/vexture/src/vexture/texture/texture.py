@@ -18,7 +18,7 @@ from vexture.texture.describe import facts_of
 from vexture.texture.files import target_of, write_together
 from vexture.texture.ktx2 import check_size, write_ktx2
 from vexture.texture.pictures import colours_of, coverage_of
-from vexture.texture.planar import read_map
+from vexture.texture.planar import holds_pictures, read_map
 from vexture.texture.registry import TextureRenderer
 from vexture.texture.root import Root, deflated_texts, roots_text
 from vexture.texture.select_root import layers_of, place_of
@@ -95,7 +95,10 @@ class Texture:
     @property
     def version(self) -> str:
         """Version of the format: the lowest that supports all kinds of its shapes."""
-        return layout.PACKED_VERSION if not any(root.is_map for root in self.roots) else layout.MAP_VERSION
+        quads = [root.quad for root in self.roots if root.is_map]
+        if any(holds_pictures(self.flat, quad) for quad in quads):
+            return layout.PICTURE_VERSION
+        return layout.MAP_VERSION if quads else layout.PACKED_VERSION
 
     @property
     def depth(self) -> int:

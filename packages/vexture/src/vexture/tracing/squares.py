@@ -27,6 +27,9 @@ MOST_OPACITIES: Final = 4
 as a fraction of all; and opacities of translucent colours. Smooth edges exceed them, as measured on drawings of 12
 to 64 pixels."""
 
+SOME: Final = 64
+"""Rows and columns of a sample of the pixels."""
+
 Pixels = NDArray[np.uint8]
 
 
@@ -36,7 +39,10 @@ def cells_of(pixels: Pixels) -> Pixels | None:
     Pixel art has few colours. Either it is small and has no smooth edges, or each of its squares is several pixels
     wide.
     """
-    pixels = np.where(pixels[..., 3:] > 0, pixels, np.uint8(0))  # invisible pixels have no colour
+    some = pixels[:: max(pixels.shape[0] // SOME, 1), :: max(pixels.shape[1] // SOME, 1)]
+    if len(np.unique(visible_colours(some).reshape(-1, 4).view(np.uint32))) > MOST_INKS:  # most photographs end here
+        return None
+    pixels = visible_colours(pixels)
     times = _times(pixels)
     cells = pixels[::times, ::times]
     if _is_gradual(cells):
@@ -46,6 +52,11 @@ def cells_of(pixels: Pixels) -> Pixels | None:
     if len(np.unique(cells.reshape(-1, 4), axis=0)) > MOST_INKS:
         return None
     return cells if times > 1 or not _has_smooth_edges(cells) else None
+
+
+def visible_colours(pixels: Pixels) -> Pixels:
+    """Return pixels in which those that are invisible have no colour."""
+    return np.where(pixels[..., 3:] > 0, pixels, np.uint8(0))
 
 
 def _is_gradual(cells: Pixels) -> bool:

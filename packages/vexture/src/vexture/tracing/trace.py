@@ -1,18 +1,17 @@
 """Raster images as drawings (thesis 4.2), traced as one flat colour or gradient after another."""
 
 import os
-import warnings
 from dataclasses import replace
-from io import BytesIO
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from vexture.base.content import PICTURE_FORMATS, FileKind, about, kind_of, read_bytes, start_of
-from vexture.base.errors import LimitError, SourceError, reason_of
+from vexture.base.content import about
+from vexture.base.errors import LimitError, SourceError
 from vexture.base.notes import Notes, warn_of
+from vexture.base.pixels import MOST_PIXELS, pixels_of
 from vexture.drawing.drawing import Drawing
 from vexture.svg.read import svg_drawing
 from vexture.tracing.colours import LEVEL, background_of, flat_colours
@@ -20,9 +19,6 @@ from vexture.tracing.document import document_of
 from vexture.tracing.mixture import Mixture, mixture
 from vexture.tracing.shading import NONE_HERE, Tone, nearest, shading_of, steps_of
 from vexture.tracing.squares import cells_of, squares_document
-
-if TYPE_CHECKING:  # imported at run time for pictures only
-    from PIL import Image
 
 LONGEST: Final = 2048
 """Longest side in pixels; a larger picture is reduced first."""
@@ -33,16 +29,6 @@ PHOTO_BLUR: Final = 1.5
 PHOTO_SPECKLE: Final = 4
 """Treatment of a photograph: longer side in pixels after reduction, radius of blur, number of colours, and side of the
 smallest areas: those with fewer pixels than its square are left out."""
-
-MOST_PIXELS: Final = 50_000_000
-"""Most pixels of a picture; a file of a few kilobytes can declare a huge size."""
-
-TEXTS: Final = "vexture."
-"""Prefix of PNG keywords in images of the thesis encoding (FORMAT.md)."""
-
-TEXTURE: Final = (
-    "is an image of a texture of the encoding thesis, not a picture; convert the drawing that it was made from"
-)
 
 
 def read_image(source: str | os.PathLike[str] | bytes, file_name: str | None = None) -> Drawing:
@@ -230,44 +216,3 @@ def _posterise(image: NDArray[np.float32], background: NDArray[np.float32] | Non
     number = nearest(pixels, colours).reshape(image.shape[:2]).astype(np.int16)
     parts = Mixture(number, number, np.ones(number.shape, np.float32), np.ones(number.shape, np.bool_))
     return [Tone(colour) for colour in colours], parts
-
-
-def pixels_of(source: str | os.PathLike[str] | bytes) -> NDArray[np.uint8]:
-    """Return the pixels of a picture, or of the first image of an animation, (height, width, 4) of sRGB and opacity.
-
-    The EXIF orientation is applied. An image of a texture is refused.
-    """
-    content = source if isinstance(source, bytes) else read_bytes(source)
-    if kind_of(start_of(content)) is not FileKind.PICTURE:
-        raise SourceError("is no picture; give a PNG, JPEG, WebP, GIF or BMP")
-    from PIL import Image, UnidentifiedImageError
-
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # on sizes, which are checked here, and on damaged metadata
-            with Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
-                if any(isinstance(key, str) and key.startswith(TEXTS) for key in picture.info):
-                    raise SourceError(TEXTURE)
-                if picture.width * picture.height > MOST_PIXELS:
-                    raise LimitError(
-                        f"has {picture.width} x {picture.height} pixels; the limit is {MOST_PIXELS:,}; scale it down"
-                    )
-                return _upright(picture)
-    except Image.DecompressionBombError:
-        raise LimitError(f"has far more than {MOST_PIXELS:,} pixels, which is the limit; scale it down") from None
-    except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError) as error:
-        why = reason_of(error)
-        if isinstance(error, UnidentifiedImageError):  # its text names an object in memory
-            why = "its first bytes are those of a picture, and no more"
-        raise SourceError(f"is a damaged picture ({why}); save it again") from None
-
-
-def _upright(picture: "Image.Image") -> NDArray[np.uint8]:
-    from PIL import Image, ImageOps
-
-    picture.load()
-    if picture.mode.startswith("I"):  # 16-bit gray, which Pillow would clip
-        gray = np.asarray(picture, np.int64)
-        gray = np.clip(gray >> 8 if gray.max() > 255 else gray, 0, 255)
-        picture = Image.fromarray(gray.astype(np.uint8))
-    return np.asarray(ImageOps.exif_transpose(picture).convert("RGBA"), np.uint8)

@@ -34,13 +34,16 @@ const VEXTURE_KIND_FOLLOWS: i32 = 7;
 const VEXTURE_KIND_KEEP: i32 = 5;
 const VEXTURE_KIND_LINEAR: i32 = 2;
 const VEXTURE_KIND_MIX: i32 = 6;
+const VEXTURE_KIND_PICTURE: i32 = 0;
 const VEXTURE_KIND_SHIFT: i32 = 29;
 const VEXTURE_KIND_SOLID: i32 = 1;
 const VEXTURE_LATTICE_BITS: i32 = 15;
 const VEXTURE_LEAST_COLOR: f32 = 6.103515625e-05;
 const VEXTURE_LEAST_FINEST: i32 = 4;
+const VEXTURE_LEAST_OUTLINE: f32 = 3.814697265625e-06;
 const VEXTURE_LEAST_RADIUS: f32 = 9.5367431640625e-07;
 const VEXTURE_LEAST_SHARE: f32 = 9.5367431640625e-07;
+const VEXTURE_LEAST_SMOOTH: f32 = 0.015625;
 const VEXTURE_LEVEL_BIAS: f32 = 0.00390625;
 const VEXTURE_LONG: f32 = 0.00390625;
 const VEXTURE_LONGEST_RAMP: f32 = 1048576.0;
@@ -64,6 +67,11 @@ const VEXTURE_NO_PLACE: f32 = -1e+30;
 const VEXTURE_NO_SHARE: f32 = 1.152921504606847e+18;
 const VEXTURE_NO_SIZE: f32 = 1.52587890625e-05;
 const VEXTURE_PAINT_ONE: i32 = 65535;
+const VEXTURE_PICTURE_AREA: f32 = 256.0;
+const VEXTURE_PICTURE_FAR: f32 = 16777216.0;
+const VEXTURE_PICTURE_LENGTH: f32 = 0.0625;
+const VEXTURE_PICTURE_LINES: i32 = 130;
+const VEXTURE_PICTURE_RAMP: f32 = 0.25;
 const VEXTURE_PIXEL_PARTS: i32 = 8;
 const VEXTURE_POSITION_BITS: i32 = 28;
 const VEXTURE_PRODUCT_PARTS: i32 = 4;
@@ -73,16 +81,19 @@ const VEXTURE_RAMP_PARTS: i32 = 6;
 const VEXTURE_REST_BITS: i32 = 4;
 const VEXTURE_ROW_BITS: i32 = 11;
 const VEXTURE_SHORTEST_RAMP: f32 = 2.384185791015625e-07;
+const VEXTURE_SHORT_SMOOTH: f32 = 0.0625;
 const VEXTURE_SHORT_WAY: f32 = 0.0009765625;
 const VEXTURE_SMALLEST_BOX: f32 = 9.5367431640625e-07;
 const VEXTURE_SMALLEST_PIXEL: f32 = 9.094947017729282e-13;
 const VEXTURE_SMALL_FINEST: i32 = 8;
+const VEXTURE_SMOOTH_AREA: f32 = 48.0;
 const VEXTURE_SPREAD_PAD: i32 = 0;
 const VEXTURE_SPREAD_REFLECT: i32 = 1;
 const VEXTURE_STEPS: i32 = 6;
 const VEXTURE_STOP_BITS: i32 = 19;
 const VEXTURE_STOP_COUNT_BITS: i32 = 8;
 const VEXTURE_STRAIGHT: i32 = 1;
+const VEXTURE_THINNEST_OUTLINE: f32 = 0.00390625;
 const VEXTURE_THINNEST_PIXEL: f32 = 0.015625;
 const VEXTURE_WINDING_OFFSET: i32 = 4;
 // Reading the packed texture (FORMAT.md, part B): positions, and the descent to the cells.
@@ -895,10 +906,280 @@ fn vexture_blended(below: vec4f, above: vec4f, mode: u32) -> vec4f {
     return vec4f(apart + above.a * below.a * vexture_mixture(mode, b, s), above.a + below.a * (1.0 - above.a));
 }
 
-// Paints that hold gradients (FORMAT.md, D.6): the colour of a program over a region, the part of a footprint in a cell.
+// Pictures as paints (FORMAT.md, D.6): the mean of a picture's pixels over a parallelogram.
+//
+// The weight of each pixel is an integral along the parallelogram's sides, cut at the lines between rows; the area to the
+// right of a column's border is the sum over the sides of how far they lie to its right. Pixels that are constant have
+// exact weights. Pixels that are interpolated are a convolution of constant ones with a square: their weights are cubic
+// along a side between two lines, so that Gauss-Legendre quadrature with two points is exact up to the kinks of columns.
+// Colours at the border continue beyond it: a column or row at the border has all the weight beyond.
+//
+// VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
+// needed is left out, because it takes registers.
+// Exports: VextureLevel, vexture_picture_mean.
+
+#if VEXTURE_GRADIENTS == 2
+
+// A level of a picture: columns and rows, and the texel of its first pixels.
+struct VextureLevel {
+    size: vec2i,
+    first: u32,
+}
+
+// A parallelogram in a level, in pixels from `origin`: where each of its sides begins, and the side.
+struct VextureOutline {
+    x: vec4f,
+    y: vec4f,
+    run: vec4f,
+    rise: vec4f,  // not 0
+    low: vec2f,  // its bounds
+    high: vec2f,
+    origin: vec2i,
+}
+
+// Parts of an outline's sides between two heights.
+struct VextureStrip {
+    low: vec4f,
+    high: vec4f,
+    rise: vec4f,
+}
+
+// Two points on each of these parts, and their weights for the rows of pixels below and above.
+struct VexturePoints {
+    first: vec4f,
+    second: vec4f,
+    first_below: vec4f,
+    second_below: vec4f,
+    first_above: vec4f,
+    second_above: vec4f,
+}
+
+// Premultiplied colour of a pixel, 0..255.
+fn vexture_pixel(word: u32) -> vec4f {
+    return vec4f(vec4u(word & 255u, (word >> 8u) & 255u, (word >> 16u) & 255u, word >> 24u));
+}
+
+// Weighted sum of the pixels of a texel: two columns in the row below, and in the row above.
+fn vexture_sum_pixels(pixels: vec4u, weights: vec4f) -> vec4f {
+    let below: vec4f = weights.x * vexture_pixel(pixels.x) + weights.y * vexture_pixel(pixels.y);
+    return below + weights.z * vexture_pixel(pixels.z) + weights.w * vexture_pixel(pixels.w);
+}
+
+// The texel of two columns and two rows of pixels.
+fn vexture_pixels_at(vextureTexels: texture_2d<u32>, level: VextureLevel, i: i32, j: i32) -> vec4u {
+    return vexture_texel(vextureTexels, level.first + u32(j) * u32((level.size.x + 1) >> 1u) + u32(i));
+}
+
+// The level with half as many columns and rows.
+fn vexture_next_level(level: VextureLevel) -> VextureLevel {
+    let texels: vec2i = (level.size + 1) >> vec2u(1u);
+    return VextureLevel(texels, level.first + u32(texels.x) * u32(texels.y));
+}
+
+// The outline of a parallelogram, widened if it is thin.
+fn vexture_outline(middle: vec2f, right: vec2f, up: vec2f) -> VextureOutline {
+    let is_high: bool = dot(up, up) > dot(right, right);
+    var a: vec2f = select(right, up, is_high);
+    var b: vec2f = select(up, right, is_high);
+    var size: f32 = sqrt(dot(a, a));
+    a = select(a, vec2f(VEXTURE_LEAST_OUTLINE, 0.0), size < VEXTURE_LEAST_OUTLINE);
+    size = max(size, VEXTURE_LEAST_OUTLINE);
+    let wide: f32 = (a.x * b.y - a.y * b.x) / size;
+    let more: f32 = max(VEXTURE_THINNEST_OUTLINE * size - abs(wide), 0.0) / size;
+    b += select(more, -more, wide < 0.0) * vec2f(-a.y, a.x);
+    let origin: vec2f = floor(middle);
+    let reach: vec2f = 0.5 * (abs(a) + abs(b));
+    let corner: vec2f = middle - origin - 0.5 * (a + b);
+    let rise_a: f32 = select(VEXTURE_NOTHING, a.y, abs(a.y) > VEXTURE_NOTHING);
+    let rise_b: f32 = select(VEXTURE_NOTHING, b.y, abs(b.y) > VEXTURE_NOTHING);
+    return VextureOutline(corner.x + vec4f(0.0, a.x, a.x + b.x, b.x), corner.y + vec4f(0.0, a.y, a.y + b.y, b.y),
+        vec4f(a.x, b.x, -a.x, -b.x), vec4f(rise_a, rise_b, -rise_a, -rise_b), middle - origin - reach, middle - origin
+        + reach, vec2i(origin));
+}
+
+// Where each side reaches a height, in 0..1 of the side.
+fn vexture_cuts(outline: VextureOutline, y: f32) -> vec4f {
+    return clamp((y - outline.y) / outline.rise, vec4f(0.0), vec4f(1.0));
+}
+
+// A line between pixels, or through their centres, within bounds; the first and the last one are at the bounds.
+fn vexture_line(k: i32, count: i32, place: f32, bounds: vec2f) -> f32 {
+    return select(select(clamp(place, bounds.x, bounds.y), bounds.y, k >= count), bounds.x, k <= 0);
+}
+
+// First and last column of texels that an outline meets between two heights.
+fn vexture_columns(level: VextureLevel, outline: VextureOutline, from_: vec4f, to: vec4f, reach: f32) -> vec2i {
+    var found: vec2f = vec2f(VEXTURE_PICTURE_FAR, -VEXTURE_PICTURE_FAR);
+    for (var k: i32 = 0; k < 4; k++) {
+        let start: f32 = outline.x[k] + from_[k] * outline.run[k];
+        let end: f32 = outline.x[k] + to[k] * outline.run[k];
+        found.x = select(found.x, min(found.x, min(start, end)), from_[k] != to[k]);
+        found.y = select(found.y, max(found.y, max(start, end)), from_[k] != to[k]);
+    }
+    let first: i32 = clamp(i32(floor(found.x - reach)) + outline.origin.x, 0, level.size.x - 1) >> 1u;
+    let last: i32 = clamp(i32(floor(found.y + reach)) + outline.origin.x, 0, level.size.x - 1) >> 1u;
+    return vec2i(first, min(last, first + VEXTURE_PICTURE_LINES));
+}
+
+fn vexture_strip(outline: VextureOutline, from_: vec4f, to: vec4f) -> VextureStrip {
+    let start: vec4f = outline.x + from_ * outline.run;
+    let end: vec4f = outline.x + to * outline.run;
+    return VextureStrip(min(start, end), max(start, end), abs(to - from_) * outline.rise);
+}
+
+// Area of a strip to the right of a vertical line.
+fn vexture_area_beyond(strip: VextureStrip, x: f32) -> f32 {
+    let share: vec4f = clamp((strip.high - x) / max(strip.high - strip.low, vec4f(VEXTURE_NOTHING)), vec4f(0.0),
+        vec4f(1.0));
+    return 0.5 * dot(strip.rise, share * (max(strip.low - x, vec4f(0.0)) + max(strip.high - x, vec4f(0.0))));
+}
+
+// Mean of constant pixels over an outline.
+fn vexture_area_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, outline: VextureOutline) -> vec4f {
+    var sum: vec4f = vec4f(0.0);
+    var total: f32 = 0.0;
+    let sides: vec2f = vec2f(outline.low.x, outline.high.x);
+    let ends: vec2f = vec2f(outline.low.y, outline.high.y);
+    let first: i32 = clamp(i32(floor(ends.x)) + outline.origin.y, 0, level.size.y - 1) >> 1u;
+    let last: i32 = clamp(i32(floor(ends.y)) + outline.origin.y, 0, level.size.y - 1) >> 1u;
+    var above: vec4f = vexture_cuts(outline, ends.x);
+    for (var j: i32 = first; j <= min(last, first + VEXTURE_PICTURE_LINES); j++) {
+        let below: vec4f = above;
+        let place: f32 = f32(2 * j - outline.origin.y);
+        let between: vec4f = vexture_cuts(outline, vexture_line(2 * j + 1, level.size.y, place + 1.0, ends));
+        above = vexture_cuts(outline, vexture_line(2 * j + 2, level.size.y, place + 2.0, ends));
+        let low: VextureStrip = vexture_strip(outline, below, between);
+        let high: VextureStrip = vexture_strip(outline, between, above);
+        let columns: vec2i = vexture_columns(level, outline, below, above, 0.0);
+        var x: f32 = f32(2 * columns.x - outline.origin.x);
+        var line: f32 = vexture_line(2 * columns.x, level.size.x, x, sides);
+        var left: vec2f = vec2f(vexture_area_beyond(low, line), vexture_area_beyond(high, line));
+        for (var i: i32 = columns.x; i <= columns.y; i++) {
+            line = vexture_line(2 * i + 1, level.size.x, x + 1.0, sides);
+            let middle: vec2f = vec2f(vexture_area_beyond(low, line), vexture_area_beyond(high, line));
+            x += 2.0;
+            line = vexture_line(2 * i + 2, level.size.x, x, sides);
+            let right: vec2f = vec2f(vexture_area_beyond(low, line), vexture_area_beyond(high, line));
+            let weights: vec4f = vec4f(left.x - middle.x, middle.x - right.x, left.y - middle.y, middle.y - right.y);
+            sum += vexture_sum_pixels(vexture_pixels_at(vextureTexels, level, i, j), weights);
+            total += weights.x + weights.y + weights.z + weights.w;
+            left = right;
+        }
+    }
+    return sum / select(1.0, total, total != 0.0);
+}
+
+// Points on the parts of sides above the height of the centres of a row.
+fn vexture_points(outline: VextureOutline, from_: vec4f, to: vec4f, y: f32) -> VexturePoints {
+    let first: vec4f = 0.5 * (from_ + to) - VEXTURE_GAUSS * (to - from_);
+    let second: vec4f = 0.5 * (from_ + to) + VEXTURE_GAUSS * (to - from_);
+    let first_above: vec4f = outline.y - y + first * outline.rise;
+    let second_above: vec4f = outline.y - y + second * outline.rise;
+    let rise: vec4f = 0.5 * abs(to - from_) * outline.rise;
+    return VexturePoints(outline.x + first * outline.run, outline.x + second * outline.run, rise * (1.0 - first_above),
+        rise * (1.0 - second_above), rise * first_above, rise * second_above);
+}
+
+// Integral, from the left, of the sum of the weights of a column and of all to its right, for places from its centre.
+fn vexture_ramp_beyond(place: vec4f) -> vec4f {
+    let after: vec4f = max(place + 1.0, vec4f(0.0));
+    let within: vec4f = min(after, vec4f(1.0));
+    return after - within + 0.5 * within * within;
+}
+
+// Weights of the columns from one with this centre on, in the rows below and above.
+fn vexture_weight_beyond(points: VexturePoints, x: f32) -> vec2f {
+    let first: vec4f = vexture_ramp_beyond(points.first - x);
+    let second: vec4f = vexture_ramp_beyond(points.second - x);
+    let below: f32 = dot(points.first_below, first) + dot(points.second_below, second);
+    return vec2f(below, dot(points.first_above, first) + dot(points.second_above, second));
+}
+
+// Two columns of pixels in two rows, which may be in different texels.
+fn vexture_pixels_in(vextureTexels: texture_2d<u32>, level: VextureLevel, i: i32, rows: vec2i) -> vec4u {
+    let below: vec4u = vexture_pixels_at(vextureTexels, level, i, rows.x >> 1u);
+    var above: vec4u = below;
+    if (rows.x >> 1u != rows.y >> 1u) {
+        above = vexture_pixels_at(vextureTexels, level, i, rows.y >> 1u);
+    }
+    let first: vec2u = select(below.zw, below.xy, (rows.x & 1) == 0);
+    let second: vec2u = select(above.zw, above.xy, (rows.y & 1) == 0);
+    return vec4u(first, second);
+}
+
+// Mean of interpolated pixels over an outline.
+fn vexture_smooth_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, outline: VextureOutline) -> vec4f {
+    var sum: vec4f = vec4f(0.0);
+    var total: f32 = 0.0;
+    let sides: vec2f = vec2f(outline.low.x - 1.0, outline.high.x + 1.0);
+    let first: i32 = i32(floor(outline.low.y - 0.5)) + outline.origin.y;
+    let last: i32 = i32(floor(outline.high.y - 0.5)) + outline.origin.y;
+    var above: vec4f = vexture_cuts(outline, outline.low.y);
+    for (var j: i32 = first; j <= min(last, first + VEXTURE_PICTURE_LINES); j++) {
+        let below: vec4f = above;
+        let y: f32 = f32(j - outline.origin.y) + 0.5;
+        above = vexture_cuts(outline, y + 1.0);
+        let points: VexturePoints = vexture_points(outline, below, above, y);
+        let columns: vec2i = vexture_columns(level, outline, below, above, 0.5);
+        let rows: vec2i = clamp(vec2i(j, j + 1), vec2i(0), vec2i(level.size.y - 1));
+        var x: f32 = f32(2 * columns.x - outline.origin.x) + 0.5;
+        var left: vec2f = vexture_weight_beyond(points, vexture_line(2 * columns.x, level.size.x, x, sides));
+        for (var i: i32 = columns.x; i <= columns.y; i++) {
+            let middle: vec2f = vexture_weight_beyond(points, vexture_line(2 * i + 1, level.size.x, x + 1.0, sides));
+            x += 2.0;
+            let right: vec2f = vexture_weight_beyond(points, vexture_line(2 * i + 2, level.size.x, x, sides));
+            let weights: vec4f = vec4f(left.x - middle.x, middle.x - right.x, left.y - middle.y, middle.y - right.y);
+            sum += vexture_sum_pixels(vexture_pixels_in(vextureTexels, level, i, rows), weights);
+            total += weights.x + weights.y + weights.z + weights.w;
+            left = right;
+        }
+    }
+    return sum / select(1.0, total, total != 0.0);
+}
+
+// Mean of a picture, 0..255, over a parallelogram in its pixels, given by its middle and sides, which has this share of a
+// footprint: smaller ones cost less, which limits the cost of all in a footprint.
+fn vexture_picture_mean(
+    vextureTexels: texture_2d<u32>, level_given: VextureLevel, is_smooth_given: bool, middle: vec2f, right_given: vec2f,
+    up_given: vec2f, share: f32,
+) -> vec4f {
+    var level = level_given;
+    var is_smooth = is_smooth_given;
+    var right = right_given;
+    var up = up_given;
+    let longer: f32 = max(dot(right, right), dot(up, up));
+    var area: f32 = max(abs(right.x * up.y - right.y * up.x) / share, VEXTURE_PICTURE_LENGTH * longer);
+    area *= 1.0 - VEXTURE_LEVEL_BIAS;
+    let far: f32 = max(abs(middle.x), abs(middle.y));
+    is_smooth = is_smooth && area <= VEXTURE_SMOOTH_AREA && far <= VEXTURE_PICTURE_FAR;
+    var scale: f32 = 1.0;
+    // so that it ends at the last level if a number is not finite
+    while (!(area <= VEXTURE_PICTURE_AREA && far <= VEXTURE_PICTURE_FAR) && level.size.x + level.size.y > 2) {
+        level = vexture_next_level(level);
+        scale *= 0.5;
+        area *= 0.25;
+    }
+    if (level.size.x + level.size.y == 2) {
+        return vexture_pixel(vexture_texel(vextureTexels, level.first).x);
+    }
+    if (is_smooth) {
+        if (longer < VEXTURE_SHORT_SMOOTH * VEXTURE_SHORT_SMOOTH) {
+            let wide: vec2f = max(sqrt(right * right + up * up), vec2f(VEXTURE_LEAST_SMOOTH));
+            right = vec2f(wide.x, 0.0);
+            up = vec2f(0.0, wide.y);
+        }
+        return vexture_smooth_mean(vextureTexels, level, vexture_outline(middle, right, up));
+    }
+    return vexture_area_mean(vextureTexels, level, vexture_outline(scale * middle, scale * right, scale * up));
+}
+#endif
+
+// Paints that hold gradients or pictures (FORMAT.md, D.6): the colour of a program over a region, the part of a footprint
+// in a cell.
 // Exports: VextureRegion, vexture_halves, vexture_program.
 //
-// VEXTURE_GRADIENTS is 0 if no map has programs: their text is then left out, because it takes registers.
+// VEXTURE_GRADIENTS is 0 if no map has programs: their text is then left out, because it takes registers. It is 2 if
+// programs may hold pictures.
 
 // In the unit square.
 struct VextureRegion {
@@ -1122,6 +1403,31 @@ fn vexture_gradient(
     return mean;
 }
 
+#if VEXTURE_GRADIENTS == 2
+
+// A parallelogram in the pixels of a picture, from the picture's first texel: its middle and its sides.
+fn vexture_picture_region(vextureTexels: texture_2d<u32>, at: u32, region: VextureRegion) -> VextureRegion {
+    let across: vec3f = bitcast<vec3f>(vexture_texel(vextureTexels, at + 1u).xyz);
+    let down: vec3f = bitcast<vec3f>(vexture_texel(vextureTexels, at + 2u).xyz);
+    let point: vec2f = vec2f(dot(across.xy, region.point) + across.z, dot(down.xy, region.point) + down.z);
+    let right: vec2f = vec2f(dot(across.xy, region.right), dot(down.xy, region.right));
+    return VextureRegion(point, right, vec2f(dot(across.xy, region.up), dot(down.xy, region.up)));
+}
+
+// Premultiplied mean colour of a picture, from its first texel and the texel's index, over a region that has this share of
+// a pixel.
+fn vexture_picture(vextureTexels: texture_2d<u32>, at: u32, record: vec4u, region: VextureRegion, share: f32) -> vec4f {
+    let size: vec2i = max(vec2i(vec2u(record.y & 0xffffu, record.y >> 16u)), vec2i(1));
+    let is_smooth: bool = (record.w & 1u) != 0u;
+    let pixels: VextureRegion = vexture_picture_region(vextureTexels, at, region);
+    let level: VextureLevel = VextureLevel(size, at + record.z);
+    let mean: vec4f = vexture_picture_mean(vextureTexels, level, is_smooth, pixels.point, pixels.right, pixels.up,
+        share);
+    let opacity: f32 = f32(record.x & 0xffffu) / f32(VEXTURE_PAINT_ONE);
+    return opacity / f32(VEXTURE_COVERAGE_ONE) * mean;
+}
+#endif
+
 // Ends a group: lays its colour on the colour kept at its begin, or masks that colour with it.
 fn vexture_ended(kept: vec4f, color: vec4f, how: u32) -> vec4f {
     if (how < u32(VEXTURE_MASKS)) {
@@ -1131,8 +1437,11 @@ fn vexture_ended(kept: vec4f, color: vec4f, how: u32) -> vec4f {
     return kept * select(color.a, dot(parts, color.rgb), how == u32(VEXTURE_MASKS + VEXTURE_MASK_LUMINANCE));
 }
 
-// Premultiplied colour of a program over a region that is small enough for means of its gradients to be composited.
-fn vexture_program_part(vextureTexels: texture_2d<u32>, at_given: u32, end: u32, region: VextureRegion) -> vec4f {
+// Premultiplied colour of a program over a region that is small enough for means of its gradients to be composited, and has
+// this share of a pixel.
+fn vexture_program_part(
+    vextureTexels: texture_2d<u32>, at_given: u32, end: u32, region: VextureRegion, share: f32,
+) -> vec4f {
     var at = at_given;
     var color: vec4f = vec4f(0.0);
     var kept: vec4f = vec4f(0.0);
@@ -1141,7 +1450,7 @@ fn vexture_program_part(vextureTexels: texture_2d<u32>, at_given: u32, end: u32,
     var left: u32 = u32(VEXTURE_MOST_STOPS);  // bounds the work for invalid texels
     for (; at < end; at++) {
         let texel: vec4u = vexture_texel(vextureTexels, at);
-        let kind: u32 = texel.w >> u32(VEXTURE_KIND_SHIFT);
+        var kind: u32 = texel.w >> u32(VEXTURE_KIND_SHIFT);
         if (kind == u32(VEXTURE_KIND_KEEP)) {
             kept_first = kept_before;
             kept_before = kept;
@@ -1153,6 +1462,12 @@ fn vexture_program_part(vextureTexels: texture_2d<u32>, at_given: u32, end: u32,
             kept_before = kept_first;
         } else if (kind != u32(VEXTURE_KIND_FOLLOWS)) {
             var above: vec4f = vexture_halves(texel.xy) / f32(VEXTURE_PAINT_ONE);
+#if VEXTURE_GRADIENTS == 2
+            if (kind == u32(VEXTURE_KIND_PICTURE)) {
+                above = vexture_picture(vextureTexels, at, texel, region, share);
+                kind = u32(VEXTURE_KIND_SOLID);  // as its colour is known
+            }
+#endif
             if (kind != u32(VEXTURE_KIND_SOLID)) {
                 let number: u32 = clamp((texel.w >> u32(VEXTURE_STOP_BITS)) & u32(VEXTURE_MOST_STOPS), 1u,
                     max(left, 1u));
@@ -1191,6 +1506,13 @@ fn vexture_program_parts(
             bends = max(bends, ramp.parts);
             ramps = max(ramps, vexture_spans(ramp.way, region));
         }
+#if VEXTURE_GRADIENTS == 2
+        if (kind == u32(VEXTURE_KIND_PICTURE)) {
+            let pixels: VextureRegion = vexture_picture_region(vextureTexels, at, region);
+            factors++;
+            ramps = max(ramps, VEXTURE_PICTURE_RAMP * vec2f(length(pixels.right), length(pixels.up)));
+        }
+#endif
     }
     ramps = select(bends, max(bends, for_each * ramps), factors > 1);
     let most: f32 = clamp(f32(VEXTURE_PIXEL_PARTS) * sqrt(abs(area)), 1.0, f32(VEXTURE_MOST_RAMP_PARTS));
@@ -1205,11 +1527,12 @@ fn vexture_program(vextureTexels: texture_2d<u32>, at: u32, count: u32, region: 
     let across: i32 = i32(parts.x);
     let number: i32 = across * i32(parts.y);
     var part: VextureRegion = VextureRegion(region.point, region.right / parts.x, region.up / parts.y);
+    let share: f32 = max(abs(area), VEXTURE_LEAST_SHARE) / f32(number);
     var sum: vec4f = vec4f(0.0);
     for (var k: i32 = 0; k < number; k++) {
         let place: vec2f = vec2f(vec2i(k % across, k / across)) + 0.5 - 0.5 * parts;
         part.point = region.point + place.x * part.right + place.y * part.up;
-        sum += vexture_program_part(vextureTexels, at, end, part);
+        sum += vexture_program_part(vextureTexels, at, end, part, share);
     }
     return sum * (f32(VEXTURE_PAINT_ONE) / f32(number));
 }

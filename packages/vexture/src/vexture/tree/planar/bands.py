@@ -24,7 +24,7 @@ from vexture.tree.planar.ramps import (
     turn_outwards,
 )
 from vexture.tree.planar.regions import region_of, swept_region
-from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, OFFSET, RADIUS, SPREAD
+from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, OFFSET, PICTURE, RADIUS, SPREAD
 
 MOST_BANDS: Final = 1024
 """Most bands. More are finer than the pixels of most pictures, and a shader averages the ramp across its jumps
@@ -41,7 +41,7 @@ GRADIENTS, STOPS, BANDS, REGIONS, CUBICS = range(5)
 
 
 class BandList(NamedTuple):
-    """Bands of gradients, and the regions that separate them. Rows beyond the counts are free.
+    """Bands of gradients, and the regions that separate them. Rows beyond the counts are free. A picture is one band.
 
     Band k of a gradient applies where k of its regions contain the point; each region contains the next one, or lies in
     it. Equal gradients are one.
@@ -121,6 +121,8 @@ def _is_equal(found: BandList, number: int, row: NDArray[np.float64], stops: NDA
     for c in range(FIRST):
         if known[c] != row[c]:
             return False
+    if row[FOCUS] == PICTURE:
+        return known[FIRST] == row[FIRST]
     first = int(known[FIRST])
     for k in range(len(stops)):
         for c in range(5):
@@ -131,10 +133,10 @@ def _is_equal(found: BandList, number: int, row: NDArray[np.float64], stops: NDA
 
 @kernel
 def add_band(found: BandList, row: NDArray[np.float64], stops: NDArray[np.float64]) -> BandList:
-    """Append a band; its gradient is new, or one that is listed already."""
+    """Append a band; its gradient or picture is new, or one that is listed already."""
     found = _with_room(found, len(stops), 0)
     counts, slots = found.counts, found.slots
-    key = _hash_of(row, FIRST, len(stops))
+    key = _hash_of(row, FIRST, int(row[FIRST]) if row[FOCUS] == PICTURE else len(stops))
     for k in range(len(stops)):
         key = _hash_of(stops[k], 5, key)
     slot = key & (len(slots) - 1)
@@ -144,7 +146,8 @@ def add_band(found: BandList, row: NDArray[np.float64], stops: NDArray[np.float6
         number = counts[GRADIENTS]
         for c in range(FIRST):
             found.rows[number, c] = row[c]
-        found.rows[number, FIRST], found.rows[number, COUNT] = counts[STOPS], len(stops)
+        found.rows[number, FIRST] = row[FIRST] if row[FOCUS] == PICTURE else counts[STOPS]
+        found.rows[number, COUNT] = len(stops)
         for k in range(len(stops)):
             for c in range(5):
                 found.stops[counts[STOPS] + k, c] = stops[k, c]
@@ -178,6 +181,8 @@ def add_bands(
     It is one band without regions if the ramp does not jump there, or jumps too often. If `at_all_stops` is 1, soft
     stops separate bands, too, because the blended ramp may jump there. `row` and `stops` may be written to.
     """
+    if row[FOCUS] == PICTURE:
+        return add_band(found, row, stops)
     shape = shape_of_ramp(row)
     if shape == FLAT or (row[FOCUS] == 0.0 and row[RADIUS] == 1.0):  # one circle for all places paints nothing
         return add_band(found, row, stops)

@@ -1,9 +1,9 @@
 """A stack of paths as a *program*: the operations that give its colour at any point.
 
 Solids are composited as SVG defines it, source-over in sRGB, and groups of solids separately, so a stack of flat
-colours becomes one solid. Gradients remain operations, in painting order. `KEEP` sets the colour so far aside, and the
-matching `MIX` composites the group on it, or masks it by the group. A mask that holds a gradient comes after all that
-it masks.
+colours becomes one solid. Gradients and pictures remain operations, in painting order. `KEEP` sets the colour so far
+aside, and the matching `MIX` composites the group on it, or masks it by the group. A mask that holds one of them comes
+after all that it masks.
 """
 
 from typing import NamedTuple
@@ -16,13 +16,13 @@ from vexture.base.layout import MASKS, MOST_KEPT, MOST_PROGRAM, MOST_STOPS, PAIN
 from vexture.drawing.group import Blend
 from vexture.tree.planar.blend import blend_over, masking
 from vexture.tree.planar.layers import PlanarLayers
-from vexture.tree.planar.shades import COUNT, FOCUS, flat_shade, shade_at
+from vexture.tree.planar.shades import COUNT, FOCUS, PICTURE, flat_shade, shade_over
 
 ONE = float(PAINT_ONE)
 """Steps in which paints are stored. Colours are equal if they are equal in these steps."""
 
 SOLID, SHADE, KEEP, MIX = range(4)
-"""Codes of operations: paint a solid; paint a gradient; begin a group; end a group."""
+"""Codes of operations: paint a solid; paint a gradient or picture; begin a group; end a group."""
 
 NORMAL = int(Blend.NORMAL)
 
@@ -31,7 +31,9 @@ class Operations(NamedTuple):
     """Operations in painting order, one in each row."""
 
     code: NDArray[np.int64]
-    number: NDArray[np.int64]  # a gradient's number; of `MIX` its blend mode or `MASKS` + mask, above 16 opacity bits
+    number: NDArray[
+        np.int64
+    ]  # a gradient's or picture's number; of `MIX` its blend mode or `MASKS` + mask, above 16 opacity bits
     rgba: NDArray[np.float64]  # (room, 4): premultiplied colours of solids
 
 
@@ -136,8 +138,8 @@ def _leave(
     """End the innermost group, or let it mask the one around it; return the new number of operations.
 
     For each open group, `starts` holds the place of its `KEEP` and the start of what it paints, which is after its
-    masks with gradients until the group ends. `mask_state` holds the share that its other masks leave, and the number
-    of its masks that have not been met.
+    masks with gradients or pictures until the group ends. `mask_state` holds the share that its other masks leave, and
+    the number of its masks that have not been met.
     """
     g, start, mask = around[level], starts[level, 0], layers.mask[around[level]]
     left = layers.opacity[g] * (mask_state[level, 0] if mask_state[level, 1] == 0.0 else 0.0)
@@ -169,7 +171,8 @@ def _band(layers: PlanarLayers, stack: NDArray[np.int32], k: int) -> int:
 def compose(layers: PlanarLayers, stack: NDArray[np.int32], is_flat: bool, ops: Operations) -> int:
     """Write the operations of a stack of paths; return how many, or -1 if no paint can hold them.
 
-    A stack of flat colours becomes one solid, or none. With `is_flat`, gradients count as solids of their mean colours.
+    A stack of flat colours becomes one solid, or none. With `is_flat`, gradients and pictures
+    count as solids of their mean colours.
     """
     deepest = 1
     for g in range(len(layers.depth)):
@@ -217,7 +220,7 @@ def _fits(layers: PlanarLayers, ops: Operations, count: int) -> bool:
         texels += 1
         if ops.code[k] == SHADE:
             row = layers.shades.rows[ops.number[k]]
-            texels += 2 if row[FOCUS] >= 0.0 else 0
+            texels += 2 if row[FOCUS] >= 0.0 or row[FOCUS] == PICTURE else 0
             stops += int(row[COUNT])
         elif ops.code[k] == KEEP:
             kept += 1
@@ -248,12 +251,16 @@ def colour_at(
     layers: PlanarLayers,
     ops: Operations,
     count: int,
-    x: float,
-    y: float,
+    middle: tuple[float, float],
+    size: tuple[float, float],
     work: NDArray[np.float64],
     out: NDArray[np.float64],
 ) -> None:
-    """Write the premultiplied colour (4,) of operations at a point of the unit square; `work` is scratch, (room, 4)."""
+    """Write the premultiplied colour (4,) of operations in the middle of a box of the unit square.
+
+    A picture has its mean over the box; with a size of (0, 0) it is the colour at the point. `work` is scratch, (room,
+    4).
+    """
     level = 0
     for c in range(4):
         work[0, c] = 0.0
@@ -262,7 +269,7 @@ def colour_at(
         if code == SOLID:
             blend_over(work[level], ops.rgba[k], 1.0, NORMAL)
         elif code == SHADE:
-            shade_at(layers.shades, ops.number[k], x, y, out)
+            shade_over(layers.shades, ops.number[k], middle, size, out)
             blend_over(work[level], out, 1.0, NORMAL)
         elif code == KEEP:
             level += 1

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
 from vexture.tree.planar.rows import Rows
-from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, RADIUS, Shades
+from vexture.tree.planar.shades import Shades, is_opaque_shade
 from vexture.tree.planar.source import BLEND, ELEMENT, GRADIENT, GROUP, HIDES, MASK, OUTER, MapSource
 
 
@@ -15,7 +15,7 @@ class PlanarLayers(NamedTuple):
     """Parts of which faces are composited. The first arrays have a row for each path, in painting order."""
 
     rules: NDArray[np.int64]
-    rgba: NDArray[np.float64]  # (paths, 4), premultiplied; the mean of a gradient
+    rgba: NDArray[np.float64]  # (paths, 4), premultiplied; the mean of a gradient or picture
     opaque: NDArray[np.bool_]
     covers: NDArray[np.bool_]  # whether a path hides all paths below it, because it is opaque and in no group
     hides: NDArray[np.bool_]  # whether it has hidden something, which the map lacks
@@ -30,7 +30,7 @@ class PlanarLayers(NamedTuple):
     blend: NDArray[np.int64]
     mask: NDArray[np.int64]
     masked: NDArray[np.int64]  # (groups,): number of its masks
-    bands: NDArray[np.int64]  # numbers of gradients
+    bands: NDArray[np.int64]  # numbers of gradients and pictures
     shades: Shades
 
 
@@ -85,11 +85,7 @@ def _is_opaque(source: MapSource, path: int) -> bool:
     gradient = source.paths[path, GRADIENT]
     if gradient < 0:
         return source.rgba[path, 3] >= 1.0
-    row = source.gradients[gradient]
-    for k in range(int(row[FIRST]), int(row[FIRST] + row[COUNT])):
-        if source.stops[k, 3] < 1.0:
-            return False
-    return row[FOCUS] < 0.0 or row[FOCUS] + row[RADIUS] < 1.0  # otherwise it is a cone with nothing beside it
+    return is_opaque_shade(source.gradients, source.stops, source.pixels, gradient)
 
 
 @kernel
@@ -111,7 +107,7 @@ def solid_layers(
         depth[g] = depth[outer[g]] + 1 if outer[g] >= 0 else 0
         if mask[g] != 0:
             masked[outer[g]] += 1
-    shades = Shades(np.zeros((0, 11)), np.zeros((0, 5)))
+    shades = Shades(np.zeros((0, 11)), np.zeros((0, 5)), np.zeros(0, np.uint32))
     return PlanarLayers(
         zeros,
         colours,

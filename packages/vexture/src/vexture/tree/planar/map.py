@@ -60,11 +60,13 @@ class PlanarMap:
     curves: NDArray[np.int32]  # (curves, 4, 2), in lattice units of their leaf
     sides: NDArray[np.int32]  # (curves, 2): paint on the left and on the right of each
     paints: NDArray[np.uint16]  # (paints, 4): premultiplied, in steps of 1/65535; 0 for paint 0, nothing, and programs
-    table: ProgramTable  # programs of the paints that hold gradients
-    shades: Shades  # their gradients
+    table: ProgramTable  # programs of the paints that hold gradients or pictures
+    shades: Shades  # their gradients and pictures
     starts: NDArray[np.int64]  # (paints + 1,): where the stack of each paint begins in `members`
     members: NDArray[np.int32]  # stacks: paths inside, from below, where each paint was met first
-    flattened: int = 0  # paints that are mean colours, because no program can hold their gradients or the blending
+    flattened: int = (
+        0  # paints that are mean colours, because no program can hold their gradients, pictures or blending
+    )
     deviation: float = 0.0  # largest distance between the drawing's outlines and the map's, before quantisation
     hiding: frozenset[int] = frozenset()  # paths that hide something, which the map therefore lacks
 
@@ -77,7 +79,7 @@ class PlanarMap:
 
     @property
     def programs(self) -> dict[int, Program]:
-        """Programs of the paints that hold gradients, by the paints' numbers."""
+        """Programs of the paints that hold gradients or pictures, by the paints' numbers."""
         return list_programs(self.table, self.shades)
 
     @property
@@ -92,7 +94,7 @@ class PlanarMap:
 
     @property
     def texels(self) -> int:
-        """Texels that the map takes in a texture, approximately, because lists are rounded up."""
+        """Texels that the map takes in a texture, approximately, without gradients and pictures."""
         return texels_of(len(self.count), len(self.curves)) + len(self.paints) // 2
 
     @property

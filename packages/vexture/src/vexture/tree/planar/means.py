@@ -1,4 +1,7 @@
-"""Mean colours of leaves: exact areas of faces times their exact colours, or for gradients means over sample points."""
+"""Mean colours of leaves: exact areas of faces times their exact colours, or for gradients means over sample points.
+
+Means of pictures are in `picture_means`.
+"""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +16,7 @@ from vexture.tree.planar.borders import key_of
 from vexture.tree.planar.compose import colour_at
 from vexture.tree.planar.faces import CellFaces, FaceTable, face_of, operations_of, stack_of
 from vexture.tree.planar.layers import PlanarLayers
+from vexture.tree.planar.picture_means import add_picture_mean, face_at, holds_picture
 from vexture.tree.planar.slabs import PlanarPieces
 from vexture.tree.winding import inside
 
@@ -36,28 +40,24 @@ def _area(curve: NDArray[np.float64]) -> float:
     return area
 
 
-@kernel(allocates=False)
-def _counts(curve: NDArray[np.float64], x: float, y: float) -> int:
-    """Times that a piece adds its left face and takes its right one at a point, in lattice units."""
-    by = 1 if curve[0, 0] == 0.0 and curve[0, 1] <= y else 0
-    by -= 1 if curve[3, 0] == 0.0 and curve[3, 1] <= y else 0
-    if curve[0, 1] <= y < curve[3, 1] and min(curve[0, 0], curve[3, 0]) <= x:
-        by -= 1 if max(curve[0, 0], curve[3, 0]) <= x or x_at(curve, y) <= x else 0
-    return by
-
-
 @kernel
 def _add_colour(
-    layers: PlanarLayers, faces: FaceTable, face: int, x: float, y: float, share: float, mean: NDArray[np.float64]
+    layers: PlanarLayers,
+    faces: FaceTable,
+    face: int,
+    middle: tuple[float, float],
+    size: tuple[float, float],
+    share: float,
+    mean: NDArray[np.float64],
 ) -> None:
-    """Add a share of a face's colour at a point to a mean."""
+    """Add a share of a face's colour over a box to a mean."""
     if faces.program[face] == 0:
         for c in range(4):
             mean[c] += share * faces.rgba[face, c]
         return
     count, ops, _ = operations_of(layers, stack_of(faces, face))
     colour = np.empty(4)
-    colour_at(layers, ops, count, x, y, np.empty((count + 1, 4)), colour)
+    colour_at(layers, ops, count, middle, size, np.empty((count + 1, 4)), colour)
     for c in range(4):
         mean[c] += share * colour[c]
 
@@ -113,6 +113,9 @@ def add_programs(
     colour, total = np.empty(4), np.empty(4)
     for at in range(n):
         operations, ops, _ = operations_of(layers, stack_of(faces, found[at]))
+        if holds_picture(layers, ops, operations):
+            add_picture_mean(pieces, count, base, cell, layers, (found[at], operations, ops), areas[at], mean)
+            continue
         work, met = np.empty((operations + 1, 4)), 0
         for c in range(4):  # a slice would bring much of Numba's run time
             total[c] = 0.0
@@ -120,7 +123,7 @@ def add_programs(
             is_last_chance = k == points - 1 and met == 0  # a face that holds no sample point
             if inside_of[k] == found[at] or is_last_chance:
                 x, y = cell.x + cell.size * (k + 0.5) / points, cell.y + cell.size * (k * GOLDEN % 1.0)
-                colour_at(layers, ops, operations, x, y, work, colour)
+                colour_at(layers, ops, operations, (x, y), (0.0, 0.0), work, colour)
                 met += 1
                 for c in range(4):
                     total[c] += colour[c]
@@ -131,12 +134,10 @@ def add_programs(
 
 @kernel
 def _faces_at(pieces: PlanarPieces, count: int, base: int, points: int) -> NDArray[np.int64]:
-    """Face at each point of a leaf: the sum of face numbers, because all others cancel."""
-    found = np.full(points, base)
+    """Face at each sample point of a leaf."""
+    found = np.empty(points, np.int64)
     for k in range(points):
-        x, y = (k + 0.5) / points * LATTICE, k * GOLDEN % 1.0 * LATTICE
-        for i in range(count):
-            found[k] += _counts(pieces.curves[i], x, y) * (pieces.sides[i, 0] - pieces.sides[i, 1])
+        found[k] = face_at(pieces, count, base, (k + 0.5) / points * LATTICE, k * GOLDEN % 1.0 * LATTICE)
     return found
 
 
@@ -171,7 +172,8 @@ def set_crowded_mean(pool: PiecePool, cell: Cell, cell_faces: CellFaces, mean: N
             end_x = cell.x + cell.size if at == count else crossing_x[order[at]]
             if end_x > x:
                 face = face_of(faces, layers, ground, present, windings, key)
-                _add_colour(layers, faces, face, 0.5 * (x + end_x), y, (end_x - x) / (cell.size * SCANLINES), mean)
+                box, share = (end_x - x, cell.size / SCANLINES), (end_x - x) / (cell.size * SCANLINES)
+                _add_colour(layers, faces, face, (0.5 * (x + end_x), y), box, share, mean)
                 x = end_x
             if at < count:
                 i = crossing[order[at]]

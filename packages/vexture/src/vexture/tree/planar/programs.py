@@ -1,4 +1,4 @@
-"""Programs: the paints of faces with visible gradients."""
+"""Programs: the paints of faces with visible gradients or pictures."""
 
 from itertools import pairwise
 from typing import NamedTuple, TypeAlias
@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.base.layout import MASKS, PAINT_ONE
 from vexture.drawing.group import Blend, Mask
-from vexture.drawing.paint import Gradient
 from vexture.tree.growth import longer
 from vexture.tree.planar.compose import KEEP, SHADE, SOLID
 from vexture.tree.planar.faces import operations_of
 from vexture.tree.planar.layers import PlanarLayers
-from vexture.tree.planar.shades import Shades, gradient_of
+from vexture.tree.planar.shades import Shade, Shades, shade_of
 
 
 class Solid(NamedTuple):
@@ -34,8 +33,8 @@ class Mix(NamedTuple):
     how: Blend | Mask
 
 
-Operation: TypeAlias = Solid | Gradient | Keep | Mix
-"""A step of a program; a gradient is painted over the colour so far."""
+Operation: TypeAlias = Solid | Shade | Keep | Mix
+"""A step of a program; a gradient or picture is painted over the colour so far."""
 
 Program: TypeAlias = tuple[Operation, ...]
 
@@ -63,7 +62,7 @@ def programs_of(
     code, number, rgba = np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros((0, 4))
     for place in range(len(starts) - 1):
         stack = members[starts[place] : starts[place + 1]]
-        if not _has_gradient(layers, stack):
+        if not _has_shade(layers, stack):
             continue
         count, ops, is_flat = operations_of(layers, stack)
         flattened += is_flat
@@ -81,8 +80,8 @@ def programs_of(
 
 
 @kernel(allocates=False)
-def _has_gradient(layers: PlanarLayers, stack: NDArray[np.int32]) -> bool:
-    """Whether any path of a stack has a gradient."""
+def _has_shade(layers: PlanarLayers, stack: NDArray[np.int32]) -> bool:
+    """Whether any path of a stack has a gradient or picture."""
     for k in range(len(stack)):
         if layers.shade[stack[k]] >= 0:
             return True
@@ -112,7 +111,7 @@ def _operation(table: ProgramTable, k: int, shades: Shades) -> Operation:
         red, green, blue, alpha = np.rint(PAINT_ONE * table.rgba[k].clip(0.0, 1.0)).astype(int).tolist()
         return Solid((red, green, blue, alpha))
     if code == SHADE:
-        return gradient_of(shades, number)
+        return shade_of(shades, number)
     return Keep() if code == KEEP else Mix(number & PAINT_ONE, ending_of(number >> 16))
 
 

@@ -32,7 +32,7 @@ class Rows(NamedTuple):
     path: NDArray[np.int64]  # (rows,): path of each row
     cut: NDArray[np.int64]  # (rows,): row of the path that a region cuts; -1 for a path
     shade: NDArray[np.int64]  # (rows,): first of each path's `bands`, or -1
-    bands: NDArray[np.int64]  # numbers of gradients; the bands of one path are consecutive
+    bands: NDArray[np.int64]  # numbers of gradients and pictures; the bands of one path are consecutive
     shades: Shades
     reach: float  # largest coordinate of a region before it was clipped
 
@@ -60,7 +60,7 @@ def rows_of(source: MapSource, restyle: int) -> Rows:
                 found = add_bands(found, row, stops, box, at_all_stops)
             regions[p] = found.counts[REGIONS] - before
         start += sizes[p]
-    return _in_order(source.cubics, sizes, first, regions, found)
+    return _in_order(source, sizes, first, regions, found)
 
 
 @kernel(allocates=False)
@@ -86,14 +86,14 @@ def _set_box(cubics: NDArray[np.float64], start: int, end: int, box: NDArray[np.
 
 @kernel
 def _in_order(
-    cubics: NDArray[np.float64],
+    source: MapSource,
     sizes: NDArray[np.int64],
     first: NDArray[np.int64],
     regions: NDArray[np.int64],
     found: BandList,
 ) -> Rows:
-    """Put the regions between the paths; the other arguments have an element for each path."""
-    counts = found.counts
+    """Put the regions between the paths; `sizes` to `regions` have an element for each path."""
+    counts, cubics = found.counts, source.cubics
     rows, total = len(sizes) + counts[REGIONS], len(cubics) + counts[CUBICS]
     out = cubics if counts[REGIONS] == 0 else np.empty((total, 4, 2))
     owner, path, cut, shade = np.empty(total, np.int64), np.empty(rows, np.int64), np.full(rows, -1), np.full(rows, -1)
@@ -114,5 +114,5 @@ def _in_order(
                 end, at = end + 1, at + 1
             region += 1
         row += 1 + regions[p]
-    shades = Shades(found.rows[: counts[GRADIENTS]], found.stops[: counts[STOPS]])
+    shades = Shades(found.rows[: counts[GRADIENTS]], found.stops[: counts[STOPS]], source.pixels)
     return Rows(out, owner, path, cut, shade, found.bands[: counts[BANDS]], shades, found.reach[0])

@@ -1,49 +1,88 @@
-"""The colour of a gradient at a point, as SVG 2 defines it (14.2)."""
+"""The colour of a gradient at a point, as SVG 2 defines it (14.2), and that of a picture over a box."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from vexture.base.errors import SourceError
 from vexture.base.kernels import kernel
+from vexture.base.layout import MOST_PICTURE_SIDE
 from vexture.drawing.paint import Gradient, Spread, Stop
+from vexture.drawing.picture import Picture, Sampling
+from vexture.drawing.unit_square import FARTHEST
+from vexture.tree.planar.pixels import IS_OPAQUE, SIDE_BITS, SIZE, list_pixels, mean_of_picture, pixels_at
 
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
+ONE_PIXEL: Final = 1 | 1 << SIDE_BITS
+"""Size of a picture of one pixel."""
+
 
 class Shades(NamedTuple):
-    """Gradients in two arrays only, because each array slows every call of a kernel."""
+    """Gradients and pictures in few arrays, because each array slows every call of a kernel."""
 
-    rows: NDArray[np.float64]  # (n, 11): both rows of the map to the ramp; the columns from `FOCUS` on
+    rows: NDArray[np.float64]  # (n, 11): both rows of the map to the ramp, or to pixels; the columns from `FOCUS` on
     stops: NDArray[np.float64]  # (stops, 5): colours, not premultiplied, and `OFFSET`
+    pixels: NDArray[np.uint32]  # the words of all pictures, as in `pixels`
 
 
 FOCUS, RADIUS, SPREAD, FIRST, COUNT = range(6, 11)
-"""Columns of a gradient: focal point and radius, -1 if it is linear; spread; first stop; number of stops."""
+"""Columns of a gradient: focal point and radius, -1 if it is linear; spread; first stop; number of stops.
+
+Those of a picture: `PICTURE`; opacity; sampling; where its words begin among the pixels; 0.
+"""
+
+PICTURE = -2.0
+"""Value of `FOCUS` in the row of a picture."""
 
 OFFSET = 4
 """Column of a stop; the others are its colour and opacity."""
 
+MOST_NUMBER: Final = MOST_PICTURE_SIDE * FARTHEST
+"""Largest number of a map to pixels: shaders compute with 32-bit floats."""
 
-def shades_of(gradients: Sequence[Gradient]) -> Shades:
-    """Make the arrays of gradients."""
+Shade: TypeAlias = Gradient | Picture
+
+
+def check_map(picture: Picture) -> None:
+    """Raise a `SourceError` if a map to pixels has a number that is too large."""
+    most = max(abs(number) for row in picture.to_pixels for number in row)
+    if most > MOST_NUMBER:
+        raise SourceError(
+            f"a picture's map to pixels has the number {most:.3g}; the limit is {MOST_NUMBER:.3g}; "
+            "make the picture larger or the view box smaller"
+        )
+
+
+def shades_of(listed: Sequence[Shade]) -> Shades:
+    """Make the arrays of gradients and pictures."""
     rows: list[list[float]] = []
     stops: list[tuple[float, ...]] = []
-    for one in gradients:
+    pixels, begins = list_pixels([one for one in listed if isinstance(one, Picture)])
+    begin = iter(begins)
+    for one in listed:
+        if isinstance(one, Picture):
+            check_map(one)
+            rows.append([*one.to_pixels[0], *one.to_pixels[1], PICTURE, one.opacity, one.sampling, next(begin), 0])
+            continue
         focus = one.focus or (-1.0, -1.0)
         rows.append([*one.to_ramp[0], *one.to_ramp[1], *focus, one.spread, len(stops), len(one.stops)])
         stops += [(*stop.color, stop.opacity, stop.offset) for stop in one.stops]
-    return Shades(np.array(rows, np.float64).reshape(-1, 11), np.array(stops, np.float64).reshape(-1, 5))
+    return Shades(np.array(rows, np.float64).reshape(-1, 11), np.array(stops, np.float64).reshape(-1, 5), pixels)
 
 
-def gradient_of(shades: Shades, number: int) -> Gradient:
-    """Gradient with a number."""
+def shade_of(shades: Shades, number: int) -> Shade:
+    """Gradient or picture with a number."""
     row = shades.rows[number].tolist()
     first, count = int(row[FIRST]), int(row[COUNT])
+    rows = (row[0], row[1], row[2]), (row[3], row[4], row[5])
+    if row[FOCUS] == PICTURE:
+        return Picture(rows, pixels_at(shades.pixels, first), Sampling(int(row[SPREAD])), row[RADIUS])
     stops = [Stop(t, (r, g, b), a) for r, g, b, a, t in shades.stops[first : first + count].tolist()]
     focus = None if row[FOCUS] < 0.0 else (row[FOCUS], row[RADIUS])
-    return Gradient((tuple(row[:3]), tuple(row[3:6])), tuple(stops), Spread(int(row[SPREAD])), focus)
+    return Gradient(rows, tuple(stops), Spread(int(row[SPREAD])), focus)
 
 
 @kernel(allocates=False)
@@ -80,8 +119,13 @@ def _spread(spread: int, t: float) -> float:
 
 @kernel(allocates=False)
 def flat_shade(shades: Shades, number: int, out: NDArray[np.float64]) -> bool:
-    """Write the premultiplied colour (4,) of a gradient and return True, if it has one colour everywhere."""
+    """Write the premultiplied colour (4,) of a gradient or picture and return True, if it is the same everywhere."""
     row = shades.rows[number]
+    if row[FOCUS] == PICTURE:
+        if shades.pixels[int(row[FIRST]) + SIZE] != ONE_PIXEL:
+            return False
+        shade_over(shades, number, (0.0, 0.0), (0.0, 0.0), out)
+        return True
     if row[COUNT] != 1.0 or row[FOCUS] + row[RADIUS] >= 1.0:
         return False
     stop = shades.stops[int(row[FIRST])]
@@ -115,3 +159,40 @@ def shade_at(shades: Shades, number: int, x: float, y: float, out: NDArray[np.fl
         out[c] = stops[low, c] + share * (stops[high, c] - stops[low, c])
     for c in range(3):
         out[c] *= out[3]
+
+
+@kernel(allocates=False)
+def shade_over(
+    shades: Shades,
+    number: int,
+    middle: tuple[float, float],
+    size: tuple[float, float],
+    out: NDArray[np.float64],
+) -> None:
+    """Write the premultiplied colour (4,) over a box of the unit square: a picture's mean, a gradient's in the middle.
+
+    If the sides of the box are not parallel to those of the pixels, it is replaced by a box of pixels with the same
+    variances.
+    """
+    row, (x, y), (width, height) = shades.rows[number], middle, size
+    if row[FOCUS] != PICTURE:
+        shade_at(shades, number, x, y, out)
+        return
+    place = row[0] * x + row[1] * y + row[2], row[3] * x + row[4] * y + row[5]
+    a, b, d, e = row[0] * width, row[1] * height, row[3] * width, row[4] * height
+    across, down = np.sqrt(a * a + b * b), np.sqrt(d * d + e * e)  # WebAssembly has no function hypot
+    mean_of_picture(shades.pixels, int(row[FIRST]), int(row[SPREAD]), place, (across, down), out)
+    for c in range(4):
+        out[c] *= row[RADIUS]
+
+
+@kernel(allocates=False)
+def is_opaque_shade(rows: NDArray[np.float64], stops: NDArray[np.float64], pixels: NDArray[np.uint32], k: int) -> bool:
+    """Whether nothing below shows through any part of a gradient or picture, as `Paint.is_opaque` says."""
+    row = rows[k]
+    if row[FOCUS] == PICTURE:
+        return row[RADIUS] >= 1.0 and pixels[int(row[FIRST]) + IS_OPAQUE] == 1
+    for stop in range(int(row[FIRST]), int(row[FIRST] + row[COUNT])):
+        if stops[stop, 3] < 1.0:
+            return False
+    return row[FOCUS] < 0.0 or row[FOCUS] + row[RADIUS] < 1.0  # otherwise it is a cone with nothing beside it

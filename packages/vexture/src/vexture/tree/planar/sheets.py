@@ -108,8 +108,8 @@ def _within_budget(drawing: Drawing, restyle: bool, **parameters: Unpack[TreePar
 
 
 def _is_flat(paths: Sequence[Path]) -> bool:
-    """Whether no path has a gradient."""
-    return all(path.paint.gradient is None for path in paths)
+    """Whether no path has a gradient or picture."""
+    return not any(path.paint.is_varied for path in paths)
 
 
 def notes_of_sheets(sheets: Sequence[Sheet]) -> tuple[Note, ...]:

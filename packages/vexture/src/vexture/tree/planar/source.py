@@ -7,14 +7,13 @@ from numpy.typing import NDArray
 
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.group import Group
-from vexture.drawing.paint import Gradient
 from vexture.tree.cubics import outlines_of
-from vexture.tree.planar.shades import shades_of
+from vexture.tree.planar.shades import Shade, shades_of
 from vexture.tree.planar.style import elements_of
 
 GROUP, GRADIENT, ELEMENT, HIDES = range(4)
-"""Columns of a path: innermost group, or -1; gradient, or -1; number of its element; 1 if it hides something that the
-drawing leaves out, else 0."""
+"""Columns of a path: innermost group, or -1; gradient or picture, or -1; number of its element; 1 if it hides something
+that the drawing leaves out, else 0."""
 
 OUTER, BLEND, MASK = range(3)
 """Columns of a group: group around it, or -1; blend mode; property by which it masks the group around it, or 0."""
@@ -31,33 +30,37 @@ class MapSource(NamedTuple):
     path: NDArray[np.int64]  # (contours,)
     rules: NDArray[np.int64]  # (paths,)
     paths: NDArray[np.int64]  # (paths, 4): `GROUP` to `HIDES`
-    rgba: NDArray[np.float64]  # (paths, 4), not premultiplied; the mean of a gradient
+    rgba: NDArray[np.float64]  # (paths, 4), not premultiplied; the mean of a gradient or picture
     groups: NDArray[np.int64]  # (groups, 3): `OUTER` to `MASK`
     opacities: NDArray[np.float64]  # (groups,)
-    gradients: NDArray[np.float64]  # (gradients, 11): the rows of `Shades`
+    gradients: NDArray[np.float64]  # (gradients and pictures, 11): the rows of `Shades`
     stops: NDArray[np.float64]  # (stops, 5): the stops of `Shades`
+    pixels: NDArray[np.uint32]  # those of `Shades`
 
 
 def source_of(drawing: Drawing, restyle: bool = False) -> MapSource:
     """Plain arrays of a drawing; its elements have numbers only if its map is to be restyled."""
     number: dict[int, int] = {}  # by identity: equal gradients become one later, and hashing them takes long
-    listed: list[Gradient] = []
+    listed: list[Shade] = []
     rows: list[tuple[int, int, int, int]] = []
     colours: list[tuple[float, float, float, float]] = []
     for one in drawing.paths:
         paint = one.paint
         colours.append((*paint.color, paint.opacity))
         place = -1
-        if paint.gradient is not None:
-            place = number.setdefault(id(paint.gradient), len(listed))
+        shade = paint.gradient or paint.picture
+        if shade is not None:
+            place = number.setdefault(id(shade), len(listed))
             if place == len(listed):
-                listed.append(paint.gradient)
+                listed.append(shade)
         rows.append((one.group, place, 0, one.hides))
     paths = np.array(rows, np.int64).reshape(-1, PATH_COLUMNS)
     if restyle:
         paths[:, ELEMENT] = elements_of(drawing)[1]
     rgba = np.array(colours, np.float64).reshape(-1, 4)
-    return MapSource(*outlines_of(drawing), paths, rgba, *group_arrays(drawing.groups), *shades_of(listed))
+    shades = shades_of(listed)
+    outlines, groups = outlines_of(drawing), group_arrays(drawing.groups)
+    return MapSource(*outlines, paths, rgba, *groups, shades.rows, shades.stops, shades.pixels)
 
 
 def group_arrays(groups: tuple[Group, ...]) -> tuple[NDArray[np.int64], NDArray[np.float64]]:

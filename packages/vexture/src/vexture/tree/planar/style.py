@@ -20,6 +20,7 @@ MOST_NESTED: Final = 100
 """Most groups nested in one another. A file with deeper nesting would take long to read."""
 
 SHADED: Final = "gradient, of its mean colour, as colours that can be changed are flat"
+PICTURED: Final = "picture, of its mean colour, as colours that can be changed are flat"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -93,12 +94,14 @@ def round_colours(rgba: Any) -> NDArray[np.float64]:
 
 
 def restylable(drawing: Drawing) -> Drawing:
-    """Replace gradients by their mean colours; a note gives their number."""
+    """Replace gradients and pictures by their mean colours; notes give their numbers."""
     shaded = sum(path.paint.gradient is not None for path in drawing.paths)
-    if not shaded:
+    pictured = sum(path.paint.picture is not None for path in drawing.paths)
+    notes = [Note("simplified", text, count) for text, count in ((SHADED, shaded), (PICTURED, pictured)) if count]
+    if not notes:
         return drawing
     paths = tuple(replace(path, paint=Paint(path.paint.color, path.paint.opacity)) for path in drawing.paths)
-    return replace(drawing, paths=paths, notes=(*drawing.notes, Note("simplified", SHADED, shaded)))
+    return replace(drawing, paths=paths, notes=(*drawing.notes, *notes))
 
 
 def elements_of(drawing: Drawing) -> tuple[list[Path], NDArray[np.int64]]:
