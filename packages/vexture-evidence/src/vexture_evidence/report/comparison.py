@@ -25,7 +25,7 @@ from vexture_evidence.measures.rivals import (
     texture_rival,
 )
 from vexture_evidence.report.renderers import bands_part, dashes, renderers_part
-from vexture_evidence.report.section import Material, Picture, Section, Table
+from vexture_evidence.report.section import Material, PrintedPicture, Section, Table
 
 if TYPE_CHECKING:
     from vexture.drawing.drawing import Drawing
@@ -139,15 +139,15 @@ def pictures_part(main: Compared) -> Section:
         *((way, *(None for _ in HEAD[1:])) for way in missing),
     ]
     series = [*rasters, *fields, *ours]
-    items: list[Table | Picture] = [
+    items: list[Table | PrintedPicture] = [
         Table("rival-textures", textures_caption(main, missing), HEAD, rows),
-        Picture("error-over-bytes", error_over_bytes(series), bytes_caption(main, rasters), BYTES_ALT),
+        PrintedPicture("error-over-bytes", error_over_bytes(series), bytes_caption(main, rasters), BYTES_ALT),
     ]
     if main.packed and drawing.segments:
         equal = Equal(*(found.rival for found in main.equal))
         shown = (equal.raster_in_memory, equal.raster_in_file, equal.distance_in_file, equal.narrow_in_file)
         figure = equal_bytes(drawing, [*shown, main.packed.rival])
-        items.append(Picture("equal-bytes", figure, strip_caption(main), STRIP_ALT))
+        items.append(PrintedPicture("equal-bytes", figure, strip_caption(main), STRIP_ALT))
     facts = {"fields": [row_of(found.rival.label, found) for found in fields]}
     return Section("raster-textures", "Raster textures and distance fields", (), items, facts)
 

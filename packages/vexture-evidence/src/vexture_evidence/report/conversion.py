@@ -13,7 +13,7 @@ from vexture_evidence.measures.conversions import MeasuredConversion, frame_side
 from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1, Row
 from vexture_evidence.measures.timing import median_seconds
-from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
+from vexture_evidence.report.section import Material, Printed, PrintedPicture, Section, Table
 
 READ_REPEAT: Final = 3
 """How often a file is read; the median time is reported."""
@@ -197,7 +197,7 @@ def _picture(
     printed: list[Row | None],
     found: list[dict[str, MeasuredConversion]],
     side: int | None,
-) -> Picture:
+) -> PrintedPicture:
     quantities: dict[str, dict[str, Any]] = {
         "milliseconds": {"printed": [row and row.ms for row in printed]},
         "curves": {"printed": [row and row.curves for row in printed]},
@@ -221,6 +221,6 @@ def _picture(
         "limited them to 120." if any(printed) else ".")
     )  # fmt: skip
     figure = conversions([shape.name for shape in shapes], quantities)
-    return Picture(
+    return PrintedPicture(
         "conversions", figure, caption, "Marks for each drawing and method: time, curves, bytes, frames per second"
     )

@@ -22,7 +22,7 @@ from vexture_evidence.measures.thesis_limits import (
     unnecessary_quads,
 )
 from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of, tree_of
-from vexture_evidence.report.section import Material, Picture, Section
+from vexture_evidence.report.section import Material, PrintedPicture, Section
 
 LOOPS, CORNERS, SMALL, LARGE = "loop", "flame", "simple-small", "simple-big"
 """Example drawings for the points that few drawings show, used in every report."""
@@ -60,7 +60,7 @@ def loops_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoin
         f"leaves {left} cells unresolved at the depth limit and has an error of {sampled.mae:.2g}/255; ours has "
         f"{ours.mae:.1g}/255. The titles count the curves in the cells that are shown. " + LEFT_OUT
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-loops",
         before_after(rows, [("clamped", "direct"), ("sampled", "packed")]),
         caption,
@@ -96,7 +96,7 @@ def corners_point(material: Material, subject: ConvertedDrawing) -> DiscussionPo
         "within tolerance; after, the corner lies inside a leaf. The titles count the curves in the cells that are "
         "shown. " + LEFT_OUT
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-corners",
         before_after(rows, [("sampled", "packed")] * 2),
         caption,
@@ -131,7 +131,7 @@ def density_point(material: Material, subject: ConvertedDrawing) -> DiscussionPo
         "from the drawing's outline, sorted. Median distances, in pixels of a picture with a side of 1,000 pixels: "
         f"{medians}."
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-density", density(subject.drawing, textures), caption,
         "Enlarged outlines: before, beside the drawing's; after, on it. The distribution of the distances.",
     )  # fmt: skip
@@ -165,7 +165,7 @@ def divisions_point(material: Material, subject: ConvertedDrawing) -> Discussion
         "points on each cubic; the unit square is always divided and does not count). The titles give the number of "
         "hatched squares and the number of all quads. " + LEFT_OUT
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-divisions", unneeded_divisions(shown), caption, "Cells of a shield in two sizes, before and after."
     )
     part = Section("divisions", "Unnecessary subdivisions (6.2.2)", text, [picture])
@@ -201,7 +201,7 @@ def values_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoi
         "coverage: by straight lines, by 16 samples of each curve, and ours, all on one colour scale. Right: errors of "
         "the MIP values of quads, by depth."
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-values",
         stored_value_errors(stored),
         caption,

@@ -14,7 +14,7 @@ from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, convert_by
 from vexture_evidence.measures.thesis_limits import BeforeAfter, Lengths, close_up, list_lengths
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1
 from vexture_evidence.report.discussion_point import LEFT_OUT, DiscussionPoint, packed_of, pair_of
-from vexture_evidence.report.section import Material, Picture, Section
+from vexture_evidence.report.section import Material, PrintedPicture, Section
 
 CROSSED, SMALL, DUCK = "crossings", "simple-small", "duck"
 """Example drawings for the points that few drawings show, used in every report."""
@@ -58,7 +58,7 @@ def lines_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoin
         f"{close.errors[0].mae:.2g}/255. Right: errors of `packed`, whose own cells are different; the mean error is "
         f"{close.errors[1].mae:.1g}/255."
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-lines",
         lines_at_borders(close, ("as the thesis draws it", "packed")),
         caption,
@@ -93,7 +93,7 @@ def crossings_point(material: Material, subject: ConvertedDrawing) -> Discussion
         "crossing, in a square of 1/64 of the drawing's side. The titles count the curves in the cells that are "
         "shown. " + LEFT_OUT
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-crossings",
         before_after(rows, [("sampled", "packed")] * 2),
         caption,
@@ -136,7 +136,7 @@ def lists_point(material: Material, subject: ConvertedDrawing) -> DiscussionPoin
         f"refused. Middle and right: parts of a picture of {across * across:,} copies, from `packed`. `sampled`, which "
         "takes long, is tried with few copies."
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-lists",
         list_growth(lengths, parts),
         caption,
@@ -181,7 +181,7 @@ def editing_point(material: Material, subject: ConvertedDrawing) -> DiscussionPo
         "turns); this file with a ball added beside the duck; a picture of the texture that the changed file became."
     )
     figure = edited_drawing(pair_of(shape, "sampled"), after, coverage(after.texture, (200, 200), renderer="cpu"))
-    picture = Picture(
+    picture = PrintedPicture(
         "discussion-editing", figure, caption, "A texture's pixels; its outlines with handles; a changed drawing."
     )
     part = Section("editing", "Editing with ordinary programs (4.2, 7)", text, [picture])

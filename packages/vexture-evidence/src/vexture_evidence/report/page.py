@@ -10,7 +10,7 @@ from io import BytesIO
 from typing import Any
 
 from vexture_evidence.figures.style import RESOLUTION
-from vexture_evidence.report.section import Picture, Printed, Section, Table
+from vexture_evidence.report.section import Printed, PrintedPicture, Section, Table
 
 POLICY = "default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'"
 """The page loads only its own pictures and runs no scripts."""
@@ -82,17 +82,17 @@ def page(title: str, machine: Mapping[str, Any], lead: Sequence[str], sections: 
     )
 
 
-def pictures_of(sections: Sequence[Section]) -> Iterator[Picture]:
+def pictures_of(sections: Sequence[Section]) -> Iterator[PrintedPicture]:
     """All pictures, in order."""
     for section in sections:
         for item in section.items:
             if isinstance(item, Section):
                 yield from pictures_of([item])
-            elif isinstance(item, Picture):
+            elif isinstance(item, PrintedPicture):
                 yield item
 
 
-def png_of(picture: Picture) -> bytes:
+def png_of(picture: PrintedPicture) -> bytes:
     """Contents of a picture's file."""
     data = BytesIO()
     picture.figure.savefig(data, format="png", dpi=RESOLUTION)
@@ -111,7 +111,7 @@ def known(facts: Any) -> Any:
         return {"printed": facts.value}
     if isinstance(facts, Section):
         items = {item.name if isinstance(item, Table) else item.anchor: known(item) for item in facts.items
-                 if not isinstance(item, Picture)}  # fmt: skip
+                 if not isinstance(item, PrintedPicture)}  # fmt: skip
         return {"title": facts.title, **known(facts.facts), **items}
     if isinstance(facts, Table):
         return {"head": list(facts.head), "rows": known(facts.rows)}
@@ -153,7 +153,7 @@ def _inline(text: str) -> str:
     return re.sub("⟦([^⟦⟧]*)⟧", r'<span class="printed">\1</span>', marked)
 
 
-def _picture(picture: Picture) -> str:
+def _picture(picture: PrintedPicture) -> str:
     width, height = (round(side * RESOLUTION) for side in picture.figure.get_size_inches())
     # shown at 96 pixels per inch, so that a screen of twice that density shows nearly all pixels of the file
     shown = round(width * 96 / RESOLUTION), round(height * 96 / RESOLUTION)

@@ -24,7 +24,7 @@ from vexture_evidence.measures.renderings import (
     with_tolerances,
 )
 from vexture_evidence.measures.solutions import SOLUTIONS, by_cpu, by_gpu, roots_by_gpu, solve
-from vexture_evidence.report.section import Material, Picture, Section, Table
+from vexture_evidence.report.section import Material, PrintedPicture, Section, Table
 
 SIDE: Final = 128
 """Side of the pictures of solved curves, in pixels."""
@@ -88,7 +88,7 @@ def _sizes(material: Material) -> Section:
         ("way", *(f"{len(view.truth)} px" for view in rendered)),
         [(name, *(view.errors[name].mae for view in rendered)) for name in last.images],
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "few-pixels", resolutions(rendered), caption, "A drawing in 1 to 16 pixels a side by several methods"
     )
     return Section("few-pixels", "Few pixels", (), (picture, table))
@@ -108,7 +108,9 @@ def _edges(material: Material) -> Section:
         f"by {TURNED:.0f} degrees: by the thesis's way without and with supersampling, by the packed texture, and the "
         f"exact coverage. Below: the error of each pixel. Errors in 1/255: {said}.{_refusal(material)}"
     )
-    picture = Picture("edges", edges(rendered), caption, "Pixels of an outline by several methods, and their errors")
+    picture = PrintedPicture(
+        "edges", edges(rendered), caption, "Pixels of an outline by several methods, and their errors"
+    )
     return Section("edges", "Edges", (), (picture,), {"errors": {name: e._asdict() for name, e in errors.items()}})
 
 
@@ -125,7 +127,7 @@ def _cut_off(material: Material) -> Section:
         f"side, the share of pixels with MIP values falls from {100 * drawn[0].from_mip.mean():.0f}% to "
         f"{100 * drawn[-1].from_mip.mean():.0f}%; they remain at the places with the finest detail."
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "cut-off", exaggerated_cut_off(drawn), caption, "MIP values of large quads at five sizes of the picture"
     )
     return Section("cut-off", "Where the descent ends", (), (picture,), {"share of MIP values": shares})
@@ -167,7 +169,9 @@ def _solutions(material: Material) -> Section:
         "double roots are left out, because they do not change whether a point is inside or outside (thesis 3.3.3). "
         f"{compared}"
     )
-    picture = Picture("solution-paths", solutions(side=SIDE, gpu=gpu), caption, "Nine cubic curves with their roots")
+    picture = PrintedPicture(
+        "solution-paths", solutions(side=SIDE, gpu=gpu), caption, "Nine cubic curves with their roots"
+    )
     table = Table(
         "solutions",
         "Roots of the nine curves, and the curves' heights there" + ("" if gpu else ". Dashes: no OpenGL here"),
@@ -212,7 +216,9 @@ def _tolerance(material: Material) -> Section:
         ],
     )  # fmt: skip
     drawn = tolerances(material.main.drawing, whole, close, square)
-    picture = Picture("tolerance", drawn, caption, "A drawing converted with three tolerances, whole and enlarged")
+    picture = PrintedPicture(
+        "tolerance", drawn, caption, "A drawing converted with three tolerances, whole and enlarged"
+    )
     return Section("tolerance", "A tolerance too loose", (), (picture, table))
 
 
@@ -235,7 +241,7 @@ def _plane() -> Section:
         ("way", "bytes on the GPU", "error: whole picture", "error: far quarter"),
         [(name, found.nbytes[name], error.mae, far[name]) for name, error in errors.items()],
     )
-    picture = Picture("plane", plane(found), caption, "Dots on a receding plane by four methods and the truth")
+    picture = PrintedPicture("plane", plane(found), caption, "Dots on a receding plane by four methods and the truth")
     return Section("plane", "A pattern that recedes", (), (picture, table))
 
 

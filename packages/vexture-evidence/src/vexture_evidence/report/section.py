@@ -20,7 +20,7 @@ class Printed:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Picture:
+class PrintedPicture:
     """A figure with its caption.
 
     Parameters
@@ -74,7 +74,7 @@ class Section:
     title : str
     text : sequence of str
         Paragraphs of plain text, with `code` between backquotes.
-    items : sequence of Table, Picture or Section
+    items : sequence of Table, PrintedPicture or Section
         In order; nested sections get headings of the next level.
     facts : mapping
         Further measurements for the JSON.
@@ -83,7 +83,7 @@ class Section:
     anchor: str
     title: str
     text: Sequence[str] = ()
-    items: "Sequence[Table | Picture | Section]" = ()
+    items: "Sequence[Table | PrintedPicture | Section]" = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
 
 

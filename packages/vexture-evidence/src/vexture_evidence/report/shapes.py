@@ -7,7 +7,7 @@ from vexture_evidence.figures.overview import SIDE, overview
 from vexture_evidence.figures.textures import count_text
 from vexture_evidence.measures.shape import WAYS, ConvertedDrawing
 from vexture_evidence.measures.thesis_numbers import TABLE_5_1
-from vexture_evidence.report.section import Material, Picture, Section
+from vexture_evidence.report.section import Material, PrintedPicture, Section
 
 
 def section(material: Material) -> Section:
@@ -51,7 +51,7 @@ def textures_of(shape: ConvertedDrawing) -> tuple[dict[str, ThesisTexture | Text
     return made, refused
 
 
-def _picture(shape: ConvertedDrawing, place: int, is_own: bool) -> Picture:
+def _picture(shape: ConvertedDrawing, place: int, is_own: bool) -> PrintedPicture:
     made, refused = textures_of(shape)
     row = None if is_own else TABLE_5_1.get(shape.name)
     title = f"{shape.name}." if row is None else f"Thesis 5.{place}. {row.title}."
@@ -64,4 +64,4 @@ def _picture(shape: ConvertedDrawing, place: int, is_own: bool) -> Picture:
     caption = " ".join([title, f"{'; '.join(parts)}.{printed}", *refused])
     name = f"shape-{place}" if row is None else f"shape-{shape.name}"
     alt = f"{shape.name}: the drawing, its cells, its textures and a picture drawn from them"
-    return Picture(name, overview(shape.drawing, made), caption, alt)
+    return PrintedPicture(name, overview(shape.drawing, made), caption, alt)

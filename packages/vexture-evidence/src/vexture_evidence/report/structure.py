@@ -15,7 +15,7 @@ from vexture_evidence.measures.leaves import leaves, quads
 from vexture_evidence.measures.metrics import LEVELS
 from vexture_evidence.measures.shape import WAYS, ConvertedDrawing, file_bytes
 from vexture_evidence.measures.thesis_numbers import STRUCTURE
-from vexture_evidence.report.section import Material, Picture, Printed, Section, Table
+from vexture_evidence.report.section import Material, Printed, PrintedPicture, Section, Table
 from vexture_evidence.report.shapes import textures_of
 
 AREA_SIDE = 500
@@ -65,7 +65,7 @@ def _table(textures_by_way: dict[str, ThesisTexture | Texture], is_own: bool, re
     return Table("cells", caption, head, rows)
 
 
-def _hierarchy(way: str, textures_by_way: dict[str, ThesisTexture | Texture], is_own: bool) -> Picture:
+def _hierarchy(way: str, textures_by_way: dict[str, ThesisTexture | Texture], is_own: bool) -> PrintedPicture:
     found = counts(textures_by_way[way])
     printed = ""
     if way == "sampled" and not is_own:
@@ -85,12 +85,12 @@ def _hierarchy(way: str, textures_by_way: dict[str, ThesisTexture | Texture], is
         )
     else:
         caption += f", {found.cells / found.grid:.2%} of the grid's {found.grid:,}.{printed}"
-    return Picture(
+    return PrintedPicture(
         f"hierarchy-{way}", hierarchy(textures_by_way[way]), caption, "The cells of a drawing and the tree of its quads"
     )
 
 
-def _lists(shape: ConvertedDrawing, way: str, texture: ThesisTexture | Texture) -> Picture:
+def _lists(shape: ConvertedDrawing, way: str, texture: ThesisTexture | Texture) -> PrintedPicture:
     area = float(render_exact(shape.drawing, (AREA_SIDE, AREA_SIDE)).mean(dtype=np.float64))
     root = float(quads(shape.way(way).tree).coverage[0])
     caption = (
@@ -100,22 +100,22 @@ def _lists(shape: ConvertedDrawing, way: str, texture: ThesisTexture | Texture) 
         f"{100 * root:.3f}%. The drawing's exact area is {100 * area:.3f}%, which differs by "
         f"{LEVELS * abs(root - area):.2g}/255."
     )
-    return Picture("lists", lists(texture), caption, "Quads and curves by depth, and how much of each is filled")
+    return PrintedPicture("lists", lists(texture), caption, "Quads and curves by depth, and how much of each is filled")
 
 
-def _depths(textures_by_way: dict[str, ThesisTexture | Texture]) -> Picture:
+def _depths(textures_by_way: dict[str, ThesisTexture | Texture]) -> PrintedPicture:
     deepest = {way: int(leaves(texture).depth.max()) for way, texture in textures_by_way.items()}
     said = ", ".join(f"{depth} for `{way}`" for way, depth in deepest.items())
     caption = (
         f"Thesis 4.13. The depth of the cells; darker is deeper. The largest depths are {said}: the most steps that a "
         "shader takes to find a pixel's curves. If a leaf holds only one curve, the deepest cells are at corners."
     )
-    return Picture(
+    return PrintedPicture(
         "depths", subdivisions(textures_by_way, shades="depth"), caption, "Cells of a drawing, coloured by depth"
     )
 
 
-def _files(shape: ConvertedDrawing, textures_by_way: dict[str, ThesisTexture | Texture]) -> Picture:
+def _files(shape: ConvertedDrawing, textures_by_way: dict[str, ThesisTexture | Texture]) -> PrintedPicture:
     shown: dict[str, ThesisTexture | Texture] = {}
     note = ""
     if "direct" in textures_by_way:
@@ -131,4 +131,4 @@ def _files(shape: ConvertedDrawing, textures_by_way: dict[str, ThesisTexture | T
         "column. The pixels of a pair are shown in their own colours. A texel of a packed texture is a column of four "
         "words: red is a word's low half, green its high half, and the words of quads have some blue." + note
     )
-    return Picture("textures", textures(shown), caption, "Texels of the textures as coloured squares")
+    return PrintedPicture("textures", textures(shown), caption, "Texels of the textures as coloured squares")

@@ -11,7 +11,7 @@ from vexture.conversion.pipeline import convert
 from vexture_evidence.figures.tracing import tracing
 from vexture_evidence.measures.metrics import outline_distance
 from vexture_evidence.measures.timing import median_seconds
-from vexture_evidence.report.section import Material, Picture, Section, Table
+from vexture_evidence.report.section import Material, PrintedPicture, Section, Table
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -55,7 +55,7 @@ def section(material: Material) -> Section:
         ["side: px", "PNG: bytes", "tracing: ms", "traced: cubics", "packed: bytes", "distance: px", "distance: ‰"],
         rows,
     )
-    picture = Picture(
+    picture = PrintedPicture(
         "tracing",
         tracing(pictures[SHOWN], traced, drawing),
         f"Thesis 4.2. From the left: the picture of {SHOWN} pixels; the traced outline and the true one where the "
