@@ -1,5 +1,4 @@
 // Pictures in a drawing: their size from their first bytes, and their pixels as the browser decodes them.
-import { MOST_PICTURE_SIDE } from '../../generated/layout.js';
 import { VextureError } from '../errors.js';
 
 /**
@@ -11,7 +10,7 @@ import { VextureError } from '../errors.js';
  */
 
 /** Most pixels of a picture, as in Python: more would fill the memory before they are read. */
-const MOST_PIXELS = 2 ** 26;
+const MOST_PIXELS = 5e7;
 
 /** Message for what is no image. */
 export const NO_IMAGE = 'it is no SVG, PNG, JPEG, WebP, GIF or BMP';
@@ -75,8 +74,8 @@ export async function decodePicture(bytes, label) {
   const fault = (/** @type {string} */ text) => new VextureError(text, 'href');
   if (!size) throw fault(NO_IMAGE);
   const { columns, rows } = size;
-  if (Math.max(columns, rows) > MOST_PICTURE_SIDE || columns * rows > MOST_PIXELS) {
-    throw fault(`it is ${columns} x ${rows}; the limits are ${MOST_PICTURE_SIDE} pixels a side and ${MOST_PIXELS} in all`);
+  if (columns * rows > MOST_PIXELS) {
+    throw fault(`it has ${columns} x ${rows} pixels; the limit is ${MOST_PIXELS.toLocaleString('en-US')}; scale it down`);
   }
   if (typeof createImageBitmap !== 'function') throw fault('nothing decodes pictures outside of a browser; convert it in a page or in Python');
   const bitmap = await createImageBitmap(new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (bytes)])).catch(() => {

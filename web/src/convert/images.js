@@ -24,6 +24,9 @@ const DEEPEST = 4;
 /** Most different images of a drawing. */
 const MOST_IMAGES = 256;
 
+/** Most pixels of all pictures of a drawing, as in Python. */
+const MOST_PIXELS = 1e8;
+
 /** Values of `image-rendering` that show the squares of pixels (CSS Images 3, 6.1; older browsers' own; SVG 1.1). */
 const SQUARES = new Set(['pixelated', 'crisp-edges', '-moz-crisp-edges', 'optimizespeed']);
 
@@ -45,7 +48,8 @@ export function* paintImage(scene, element, place, painter) {
   if (Math.min(sides[2], sides[3], width, height) < THINNEST) return;
   const fit = scene.fit(element, [0, 0, width, height], sides[2], sides[3]);
   const content = multiply(translate(IDENTITY, sides[0], sides[1]), fit);
-  const visible = ['visible', 'auto'].includes(place.style.get('overflow')) ? null : sides;
+  const isOpen = !('rgba' in found) && ['visible', 'auto'].includes(place.style.get('overflow'));
+  const visible = isOpen ? null : sides; // a picture is cut at its sides whatever `overflow` says, as in browsers
   const inner = within({ visible, content, size: [width, height] }, place);
   yield* 'rgba' in found ? paintPixels(found, inner, painter) : paintEmbedded(scene, found, inner, painter);
 }
@@ -91,6 +95,10 @@ function* openImage(scene, link) {
     const size = pictureSize(bytes);
     if (!size) return yield* openDrawing(scene, new TextDecoder().decode(bytes));
     label = `an embedded ${size.format} of ${size.columns} x ${size.rows}`;
+    scene.pictures.pixels += size.columns * size.rows;
+    if (scene.pictures.pixels > MOST_PIXELS) {
+      throw new VextureError(`the pictures of the drawing have more than ${MOST_PIXELS.toLocaleString('en-US')} pixels`, 'href');
+    }
     return yield* decoded(bytes, label);
   } catch (error) {
     if (error instanceof VextureError && !(error instanceof OvertimeError)) return `${label} (${error.message})`;

@@ -55,8 +55,8 @@ export class Scene {
     this.size = 1;
     /** Scenes and pixels of its images, or the texts of notes, by link. @type {Map<string, Scene | import('./decode-picture.js').Pixels | string>} */
     this.images = new Map();
-    /** Number of drawings in whose images it is. */
-    this.depth = 0;
+    this.pictures = { pixels: 0 }; // of all its pictures, and of those in its images
+    this.depth = 0; // number of drawings in whose images it is
   }
 
   /** @param {import('./page-engine.js').Engine} engine of a drawing in an image @returns {Scene} with the same notes */
@@ -64,6 +64,7 @@ export class Scene {
     const scene = new Scene(engine, this.strokeOutline, this.pace);
     scene.report.counts = this.report.counts;
     scene.depth = this.depth + 1;
+    scene.pictures = this.pictures;
     return scene;
   }
 

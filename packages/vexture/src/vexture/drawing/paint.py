@@ -109,7 +109,7 @@ class Paint:
             return self
         gradient, picture = self.gradient, self.picture
         if picture is not None:
-            picture = replace(picture, opacity=opacity * picture.opacity)
+            picture = picture.fade(opacity)
         if gradient is not None:
             stops = tuple(replace(stop, opacity=opacity * stop.opacity) for stop in gradient.stops)
             gradient = replace(gradient, stops=stops)

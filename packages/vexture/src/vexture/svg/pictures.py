@@ -47,7 +47,7 @@ class EmbeddedPicture:
         picture = self.paint.picture
         if picture is None or rendering.lower() not in PIXELATED:
             return self.paint
-        return replace(self.paint, picture=replace(picture, sampling=Sampling.PIXELS))
+        return replace(self.paint, picture=picture.with_sampling(Sampling.PIXELS))
 
 
 def fit_into_budget(paths: Sequence[Path], embedded: Sequence[EmbeddedPicture], report: Report) -> tuple[Path, ...]:
