@@ -18,6 +18,7 @@ from vexture.drawing.drawing import Drawing, FillRule
 from vexture.drawing.drawing import Path as DrawnPath
 from vexture.drawing.group import Blend, Group, Mask
 from vexture.drawing.paint import Gradient, Paint, Spread, Stop
+from vexture.drawing.picture import Picture, Sampling
 from vexture.renderers.exact import render_exact_colours
 from vexture.svg.outline import ShapeOutline
 from vexture.svg.strokes import Stroke, stroke_contours
@@ -119,7 +120,16 @@ def to_paint(value: dict[str, Any]) -> Paint:
         rows = tuple(tuple(row) for row in gradient["toRamp"])
         focus = None if gradient["focus"] is None else tuple(gradient["focus"])
         gradient = Gradient(rows, stops, Spread(gradient["spread"]), focus)  # type: ignore[arg-type]
-    return Paint(tuple(value["color"]), value["opacity"], gradient)
+    return Paint(tuple(value["color"]), value["opacity"], gradient, to_picture(value["picture"]))
+
+
+def to_picture(value: dict[str, Any] | None) -> Picture | None:
+    """Make Python's picture of the page's."""
+    if value is None:
+        return None
+    pixels = np.array(value["pixels"]["rgba"], np.uint8).reshape(value["pixels"]["rows"], value["pixels"]["columns"], 4)
+    first, second = value["toPixels"]
+    return Picture((tuple(first), tuple(second)), pixels, Sampling(value["sampling"]), value["opacity"])
 
 
 def share_off(ours: Drawing, theirs: Drawing) -> float:
@@ -148,6 +158,7 @@ def has_same_role(ours: DrawnPath, theirs: DrawnPath) -> bool:
 def is_same_path(ours: DrawnPath, theirs: DrawnPath) -> bool:
     return (
         has_same_role(ours, theirs)
+        and ours.paint.picture is theirs.paint.picture is None
         and [len(contour) for contour in ours.contours] == [len(contour) for contour in theirs.contours]
         and all(np.abs(a - b).max() < CLOSE for a, b in zip(ours.contours, theirs.contours, strict=True))
         and np.allclose(numbers_of(ours.paint), numbers_of(theirs.paint), rtol=1e-3, atol=NEAR)

@@ -8,7 +8,13 @@ function strokeOutline(cubics, closed, style) {
   return JSON.parse(request.responseText).map((contour) => Float64Array.from(contour));
 }
 
-const plain = (path) => ({ ...path, contours: path.contours.map((contour) => [...contour]) });
+/** A paint without arrays of bytes. */
+function plainPaint({ picture, ...paint }) {
+  const pixels = picture && { ...picture.pixels, rgba: [...picture.pixels.rgba] };
+  return { ...paint, picture: picture ? { ...picture, pixels } : null };
+}
+
+const plain = (path) => ({ ...path, contours: path.contours.map((contour) => [...contour]), paint: plainPaint(path.paint) });
 
 window.readText = async (text, name) => {
   const start = performance.now();
