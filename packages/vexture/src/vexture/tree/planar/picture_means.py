@@ -74,7 +74,9 @@ def _boxes_of(layers: PlanarLayers, ops: Operations, count: int, size: float, ha
             shades += 1
             row = layers.shades.rows[ops.number[k]]
             if row[FOCUS] == PICTURE:
-                pixels = max(pixels, size * max(np.hypot(row[0], row[3]), np.hypot(row[1], row[4])))
+                pixels = max(
+                    pixels, size * np.sqrt(max(row[0] * row[0] + row[3] * row[3], row[1] * row[1] + row[4] * row[4]))
+                )
         elif ops.code[k] == MIX and ops.number[k] >> 16 != NORMAL:
             multiplies = True
     multiplies = multiplies or shades > 1
