@@ -29,6 +29,9 @@ from vexture.tree.planar.style import PlanarStyle
 
 BYTE = (1 << CELL_BITS) - 1
 
+LEAST_OPACITY = 1e-6
+"""Steps of 1/65535. A picture's mean over a tiny box may be less than this where it is transparent, by rounding."""
+
 
 class Elements(NamedTuple):
     """The topmost element at each of some points."""
@@ -132,7 +135,7 @@ def programs_paint(
     """Write to `painted` (n,) whether program k, of a paint with `words[k]`, paints anything at point k."""
     for k in range(len(points)):
         point = VextureRegion((points[k, 0], points[k, 1]), (0.0, 0.0), (0.0, 0.0))
-        painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point, 1.0)[3] > 0.0
+        painted[k] = program(texels, int(words[k, 0]), int(words[k, 1]), point, 1.0)[3] > LEAST_OPACITY
 
 
 def painted_at(texels: NDArray[np.uint32], root: Root, points: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -75,8 +75,7 @@ def _boxes_of(layers: PlanarLayers, ops: Operations, count: int, size: float, ha
             row = layers.shades.rows[ops.number[k]]
             if row[FOCUS] == PICTURE:
                 pixels = max(
-                    pixels,
-                    size * max(np.sqrt(row[0] * row[0] + row[3] * row[3]), np.sqrt(row[1] * row[1] + row[4] * row[4])),
+                    pixels, size * np.sqrt(max(row[0] * row[0] + row[3] * row[3], row[1] * row[1] + row[4] * row[4]))
                 )
         elif ops.code[k] == MIX and ops.number[k] >> 16 != NORMAL:
             multiplies = True

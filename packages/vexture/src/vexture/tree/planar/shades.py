@@ -162,6 +162,12 @@ def shade_at(shades: Shades, number: int, x: float, y: float, out: NDArray[np.fl
 
 
 @kernel(allocates=False)
+def _length(x: float, y: float) -> float:
+    """Length of a vector; `hypot` of the C library differs from platform to platform."""
+    return np.sqrt(x * x + y * y)
+
+
+@kernel(allocates=False)
 def shade_over(
     shades: Shades,
     number: int,
@@ -179,8 +185,7 @@ def shade_over(
         shade_at(shades, number, x, y, out)
         return
     place = row[0] * x + row[1] * y + row[2], row[3] * x + row[4] * y + row[5]
-    a, b, d, e = row[0] * width, row[1] * height, row[3] * width, row[4] * height
-    across, down = np.sqrt(a * a + b * b), np.sqrt(d * d + e * e)  # WebAssembly has no function hypot
+    across, down = _length(row[0] * width, row[1] * height), _length(row[3] * width, row[4] * height)
     mean_of_picture(shades.pixels, int(row[FIRST]), int(row[SPREAD]), place, (across, down), out)
     for c in range(4):
         out[c] *= row[RADIUS]
