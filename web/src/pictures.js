@@ -74,6 +74,22 @@ export function faultOfPicture(texels, texel, first, count) {
 }
 
 /**
+ * Whether pictures share all their texels or none.
+ *
+ * @param {Uint32Array} texels
+ * @param {readonly number[]} operations the first texel of each checked one
+ */
+export function areApart(texels, operations) {
+  const runs = operations.map((texel) => pictureAt(texels, texel)).sort((one, other) => one.pixels - other.pixels);
+  return runs.every((run, k) => {
+    if (k === 0) return true;
+    const { pixels, columns, rows } = runs[k - 1];
+    const isSame = run.pixels === pixels && run.columns === columns && run.rows === rows;
+    return isSame || run.pixels >= pixels + texelCount(columns, rows);
+  });
+}
+
+/**
  * Whether no pixel of some texels has a colour above its opacity.
  *
  * @param {Uint32Array} texels

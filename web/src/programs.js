@@ -21,7 +21,7 @@ import {
 } from '../generated/layout.js';
 import { blended, isBlend, masking } from './blend.js';
 import { REMEDY, VextureError } from './errors.js';
-import { PICTURE_TEXELS, arePremultiplied, faultOfPicture, pictureColor } from './pictures.js';
+import { PICTURE_TEXELS, areApart, arePremultiplied, faultOfPicture, pictureColor } from './pictures.js';
 
 /**
  * @typedef {import('./planar-map.js').Head} Head
@@ -85,16 +85,19 @@ export function programOf(texels, head, paint) {
  */
 export function checkPrograms(texels, head) {
   let next = head.programs;
+  /** @type {number[]} */
+  const pictures = [];
   for (let paint = 0; paint < head.used; paint++) {
     const run = programOf(texels, head, paint);
     if (!run) continue;
     need(run.count >= 1 && run.count <= MOST_PROGRAM, 'one is empty or too long');
     need(run.first === next && next + run.count <= head.programs + head.operations, 'they leave gaps');
-    checkProgram(texels, head, run);
+    pictures.push(...checkProgram(texels, head, run));
     next += run.count;
   }
   need(next === head.programs + head.operations, 'they leave gaps');
   for (let stop = next; stop < next + head.stops; stop++) checkStop(texels, stop);
+  need(areApart(texels, pictures), 'pictures that overlap');
   need(arePremultiplied(texels, next + head.stops, head.pixels), 'a pixel above its opacity');
 }
 
@@ -110,10 +113,12 @@ function need(holds, what) {
  * @param {Uint32Array} texels
  * @param {Head} head
  * @param {Run} run
+ * @returns {number[]} the first texel of each picture
  */
 function checkProgram(texels, head, { first, count }) {
   let kept = 0;
   let stops = 0;
+  const pictures = [];
   for (let texel = first; texel < first + count; texel++) {
     const words = texels.subarray(4 * texel, 4 * texel + 4);
     const kind = words[3] >>> KIND_SHIFT;
@@ -122,6 +127,7 @@ function checkProgram(texels, head, { first, count }) {
       need(texel + PICTURE_TEXELS <= first + count, 'an operation of the wrong length');
       const fault = faultOfPicture(texels, texel, head.programs + head.operations + head.stops, head.pixels);
       need(fault === '', fault);
+      pictures.push(texel);
       texel += PICTURE_TEXELS - 1;
       continue;
     }
@@ -147,6 +153,7 @@ function checkProgram(texels, head, { first, count }) {
   }
   need(kept === 0, 'a group is not ended');
   need(stops <= MOST_STOPS, 'one has too many stops');
+  return pictures;
 }
 
 /**

@@ -85,6 +85,13 @@ const BROKEN = [
   ['no such sampling', /no such picture/, (texels) => (texels[OPERATION][3] = 2)],
   ['an opacity above 1', /no such picture/, (texels) => (texels[OPERATION][0] = 65536)],
   ['a map that is not finite', /a number is not finite/, (texels) => (texels[OPERATION + 1][0] = 0x7f800000)],
+  ['pictures that overlap', /pictures that overlap/, (texels) => {
+    texels.splice(PIXELS, 0, [65535, 1 | (1 << 16), 4, 0], texels[OPERATION + 1], texels[OPERATION + 2]);
+    texels[0][1] = 6;
+    texels[5][3] = 6;
+    texels[OPERATION][2] = 6;
+    texels.length = 16;
+  }],
   ['half of an operation', /of the wrong length/, (texels) => (texels[OPERATION + 2][3] = 0)],
   ['a pixel above its opacity', /a pixel above its opacity/, (texels) => (texels[PIXELS][3] = 0x000000ff)],
   ['more pixels than texels', /the programs of the map/, (texels) => (texels[0][3] = 100)],

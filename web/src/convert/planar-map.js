@@ -1,6 +1,6 @@
 // The texels of a planar map, by the kernel `coloured_texels`, and the style of one that can be restyled.
 import { FARTHEST } from '../../generated/svg-reader.js';
-import { MOST_PAINTS } from '../../generated/layout.js';
+import { MOST_PAINTS, MOST_PICTURE_SIDE } from '../../generated/layout.js';
 import { VextureError } from '../errors.js';
 import { checkOutcome, limitsOf, outlinesOf, overtime, workOf } from './silhouette.js';
 
@@ -19,6 +19,9 @@ const PICTURE = -2;
 /** Words of a picture before its pixels, and place of the number of rows in the first. */
 const PICTURE_HEAD = 2;
 const SIDE_BITS = 16;
+
+/** Largest number of a map to pixels. */
+const MOST_NUMBER = MOST_PICTURE_SIDE * FARTHEST;
 
 /** Numbers of a stop. */
 const STOP_COLUMNS = 5;
@@ -98,6 +101,7 @@ function shadesOf(paths) {
   const stops = [];
   const { begins, words } = listPixels(paths);
   let count = 0;
+  for (const { paint: { picture } } of paths) if (picture) checkNumbers(picture.toPixels.flat());
   const numbers = paths.map(({ paint: { gradient, picture } }) => {
     if (gradient) {
       const { toRamp, focus, spread } = gradient;
@@ -109,6 +113,16 @@ function shadesOf(paths) {
     return gradient || picture ? count++ : -1;
   });
   return { rows, stops, words, numbers };
+}
+
+/** @param {number[]} numbers of a map to pixels @throws {VextureError} if one is too large for a texture */
+function checkNumbers(numbers) {
+  const largest = Math.max(...numbers.map(Math.abs));
+  if (largest <= MOST_NUMBER) return;
+  const [found, most] = [largest, MOST_NUMBER].map((number) => number.toPrecision(3));
+  throw new VextureError(
+    `a picture's map to pixels has the number ${found}; the limit is ${most}; make the picture larger or the view box smaller`, 'picture',
+  );
 }
 
 /**
