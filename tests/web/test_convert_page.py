@@ -11,6 +11,8 @@ import numpy as np
 import pytest
 from bad_sources import BAD
 from convert_site import RED, Site, converted, open_folder, served_site, svg
+from svg_pictures import SVG as PICTURED
+from svg_pictures import file_of, link_of
 
 import vexture
 from chromium import ROOT, WEB
@@ -97,6 +99,18 @@ def test_the_file_of_a_page_holds_the_texture_of_python(page: Any, tmp_path: Pat
     for one, other in zip(ours.roots, theirs.roots, strict=True):
         assert (one.quad, one.tolerance, one.paint) == (other.quad, other.tolerance, other.paint)
         assert np.array_equal(one.to_source, other.to_source)
+
+
+def test_pictures_are_in_the_texture_as_python_has_them(page: Any, tmp_path: Path) -> None:
+    noise = file_of(np.random.default_rng(5).integers(0, 256, (45, 61, 3)).astype(np.uint8))
+    text = PICTURED.format(f'<image href="{link_of(noise)}" x="10" y="20" width="61" height="45"/>')
+    bytes_of = f"Uint8Array.from(atob('{base64.b64encode(noise).decode()}'), (c) => c.charCodeAt(0))"
+    for source, ours in (("text", text.encode()), (f"new File([{bytes_of}], 'noise.png')", noise)):
+        content = page.evaluate(f"async (text) => fileOf({source}, {{}})", text)
+        (tmp_path / "pictures.ktx2").write_bytes(base64.b64decode(content))
+        theirs = vexture.load(tmp_path / "pictures.ktx2")
+        theirs.check()
+        assert np.array_equal(vexture.convert(ours).flat, theirs.flat), source
 
 
 def test_what_is_left_out_is_noted(page: Any) -> None:
