@@ -10,7 +10,8 @@
  * @property {string} [names] property of GeoJSON, or attribute of SVG, that names elements; by default `id`
  * @property {number} [snap] largest distance at which borders of a map's polygons become one, as a fraction of the
  *   drawing's longer side
- * @property {boolean} [traceImages] trace the pictures in an SVG
+ * @property {boolean} [traceImages] trace the pictures in an SVG, instead of drawing their pixels
+ * @property {boolean} [noImages] leave the pictures in an SVG out
  * @property {number} [tolerance] largest distance from the drawing's outline, in unit-square units
  * @property {number} [maxDepth] largest depth at which cells are divided
  * @property {number} [capacity] pieces in a leaf, 1 to 15
@@ -19,7 +20,7 @@
  * @property {boolean} [strict] fail if anything of a drawing is left out, simplified or invalid
  */
 
-const SWITCHES = Object.freeze(['silhouette', 'restyle', 'traceImages', 'strict']);
+const SWITCHES = Object.freeze(['silhouette', 'restyle', 'traceImages', 'noImages', 'strict']);
 const VALUES = Object.freeze([
   'split', 'select', 'names', 'snap', 'tolerance', 'maxDepth', 'capacity', 'precision', 'maxSeconds',
 ]);
@@ -59,7 +60,7 @@ export function parametersOf(options) {
 }
 
 /** Options that need the Python program: it has more readers than this package. */
-const OF_THE_PROGRAM = Object.freeze(['select', 'snap', 'traceImages']);
+const OF_THE_PROGRAM = Object.freeze(['select', 'snap', 'traceImages', 'noImages']);
 
 const NUMBERS = Object.freeze(['tolerance', 'maxDepth', 'capacity', 'precision', 'maxSeconds']);
 
