@@ -40,6 +40,8 @@ export { writePacked } from './write-packed.js';
 /** @typedef {import('./paints.js').Color} Color */
 /** @typedef {import('./paints.js').Gradient} Gradient */
 /** @typedef {import('./paints.js').Paint} Paint */
+/** @typedef {import('./paints.js').Picture} Picture */
+/** @typedef {import('./decode-picture.js').Pixels} Pixels */
 /** @typedef {import('./paints.js').Rows} Rows */
 /** @typedef {import('./paints.js').Stop} Stop */
 /** @typedef {import('./read-geojson.js').GeojsonLook} GeojsonLook */
