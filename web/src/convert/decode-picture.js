@@ -2,10 +2,10 @@
 import { VextureError } from '../errors.js';
 
 /**
- * @typedef {object} Pixels premultiplied sRGB bytes: red, green, blue and opacity, row by row from the top
- * @property {number} columns
- * @property {number} rows
- * @property {Uint8Array} rgba
+ * @typedef {object} Pixels The pixels of a picture.
+ * @property {number} columns number of pixels in a row
+ * @property {number} rows number of rows
+ * @property {Uint8Array} rgba red, green, blue and opacity, premultiplied sRGB, row by row from the top
  * @property {string} label what a note calls it
  */
 

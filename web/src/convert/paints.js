@@ -16,7 +16,7 @@ import { determinant, inverse } from './affine.js';
  *
  * @typedef {object} Picture Pixels as a paint; beyond its border the colours at the border continue.
  * @property {Rows} toPixels from the drawing's coordinates to columns and rows
- * @property {import('./decode-picture.js').Pixels} pixels
+ * @property {import('./decode-picture.js').Pixels} pixels shown ones
  * @property {number} sampling 0 for squares, 1 for linear interpolation between the centres of pixels
  * @property {number} opacity factor of all pixels
  *
