@@ -368,7 +368,7 @@ def test_geographic_data_that_need_an_extra_name_it_in_one_line(
         ("lake.geojson", LAKE.encode(), ["convert"], "pip install 'vexture[geo]'"),
         ("wet.gpkg", b"SQLite format 3\0" + bytes(52) + b"GPKG", ["convert"], "pip install 'vexture[gis]'"),
         ("triangle.svg", DRAWING.encode(), ["view"], "'vexture[server]'"),
-        ("disc.png", picture, ["convert"], "'vexture[trace]'"),
+        ("disc.png", picture, ["convert", "--trace-images"], "'vexture[trace]'"),
     ],
     ids=["polygons", "areas", "view", "picture"],
 )

@@ -22,7 +22,7 @@ SUMMARIES: Final = {
     "convert": "Convert drawings into textures.",
     "text": "Convert a word or lines of text into a texture.",
     "font": "Convert the characters of a font into one texture, with a shape for each and metrics as JSON.",
-    "render": "Render a drawing, a traced picture or a texture to a PNG, in its colours.",
+    "render": "Render a drawing, a picture or a texture to a PNG, in its colours.",
     "info": "Describe a texture or a pyramid of tiles (a PMTiles file or a folder).",
     "restyle": "Change the colours of elements in a planar map.",
     "view": "Show drawings or packed textures in the browser until you press Ctrl-C.",

@@ -54,17 +54,17 @@ class Picture:
 
     def after(self, matrix: Affine) -> "Picture":
         """Return the picture in new coordinates; `matrix` maps the new ones to the old ones."""
-        return self._changed("to_pixels", compose_affine(self.to_pixels, matrix))
+        return self._copy_with("to_pixels", compose_affine(self.to_pixels, matrix))
 
     def fade(self, opacity: float) -> "Picture":
         """Return the picture with its opacity multiplied."""
-        return self._changed("opacity", opacity * self.opacity)
+        return self._copy_with("opacity", opacity * self.opacity)
 
     def with_sampling(self, sampling: Sampling) -> "Picture":
         """Return the same pixels with another sampling."""
-        return self._changed("sampling", sampling)
+        return self._copy_with("sampling", sampling)
 
-    def _changed(self, name: str, value: object) -> "Picture":
+    def _copy_with(self, name: str, value: object) -> "Picture":
         """Return a copy with one attribute changed. Its pixels are not checked again: a drawing may show them often."""
         picture = copy(self)
         object.__setattr__(picture, name, value)
