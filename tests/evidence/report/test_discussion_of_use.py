@@ -3,7 +3,7 @@
 import pytest
 
 from vexture_evidence.report.discussion_of_use import crossings_point, editing_point
-from vexture_evidence.report.section import Material, Picture
+from vexture_evidence.report.section import Material, PrintedPicture
 
 pytestmark = pytest.mark.slow  # test_report_is_whole makes these points too
 
@@ -16,7 +16,7 @@ def material():
 def test_editing_is_timed_for_the_duck_and_changes_nothing_else(material):
     point = editing_point(material, material.example("holes"))
     (picture,) = point.section.items
-    assert isinstance(picture, Picture)
+    assert isinstance(picture, PrintedPicture)
     assert point.quantity == "time to convert the duck, ms"
     assert point.before > 0.0 < point.after
     assert f"{point.after:.1f} ms" in point.section.text[2]

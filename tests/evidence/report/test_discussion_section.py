@@ -7,7 +7,7 @@ import pytest
 
 from vexture_evidence.report.discussion import section
 from vexture_evidence.report.page import json_text, page, pictures_of
-from vexture_evidence.report.section import Material, Picture, Section
+from vexture_evidence.report.section import Material, PrintedPicture, Section
 
 pytestmark = pytest.mark.slow  # test_report_is_whole makes this section too
 
@@ -30,7 +30,7 @@ def test_every_point_has_its_words_a_picture_and_two_figures(made):
         assert "“" in point.text[0]
         assert any(text.startswith("Before: ") for text in point.text)
         assert any(text.startswith("After: ") for text in point.text)
-        assert [type(item) for item in point.items] == [Picture]
+        assert [type(item) for item in point.items] == [PrintedPicture]
 
 
 def test_everything_is_better_after(made):

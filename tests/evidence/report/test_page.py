@@ -9,13 +9,13 @@ from lxml import html
 
 from vexture_evidence.figures.style import panels, show
 from vexture_evidence.report.page import json_text, known, page, pictures_of, png_of
-from vexture_evidence.report.section import Picture, Printed, Section, Table
+from vexture_evidence.report.section import Printed, PrintedPicture, Section, Table
 
 
 def picture(name="coverage"):
     figure, axes = panels(1, 1, titles=("Half",))
     show(axes[0, 0], np.array([[0.0, 1.0]]))
-    return Picture(name, figure, "Half of it, by `show`; ⟦53.1 ms⟧.", "A white and a dark pixel")
+    return PrintedPicture(name, figure, "Half of it, by `show`; ⟦53.1 ms⟧.", "A white and a dark pixel")
 
 
 def sections():
