@@ -4,6 +4,7 @@ import csv
 import os
 import re
 import stat
+import struct
 import warnings
 import zlib
 from collections.abc import Iterator, Mapping
@@ -233,7 +234,9 @@ def picture_size(content: bytes) -> tuple[str, int, int] | None:
     try:
         with warnings.catch_warnings(action="ignore"), Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
             return str(picture.format), picture.width, picture.height
-    except (Image.DecompressionBombError, OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError):
+    except Image.DecompressionBombError:
+        return None
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError, struct.error):
         return None  # too large or damaged: its reader reports it
 
 

@@ -1,6 +1,7 @@
 """Pixels of a picture's file: decoded, upright, in sRGB."""
 
 import os
+import struct
 import warnings
 from io import BytesIO
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -91,7 +92,7 @@ def decode_picture(source: str | os.PathLike[str] | bytes) -> DecodedPicture:
                 return _decode(picture, content)
     except Image.DecompressionBombError:
         raise LimitError(f"has far more than {MOST_PIXELS:,} pixels, which is the limit; scale it down") from None
-    except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError) as error:
+    except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError, struct.error) as error:
         why = reason_of(error)
         if isinstance(error, UnidentifiedImageError):  # its text names an object in memory
             why = "its first bytes are those of a picture, and no more"
