@@ -52,6 +52,9 @@ PICTURES: Final = (PNG, b"\xff\xd8\xff", b"GIF87a", b"GIF89a")
 PICTURE_FORMATS: Final = ("PNG", "JPEG", "WEBP", "GIF", "BMP")
 """Supported picture formats, by their names in Pillow."""
 
+PICTURE_FAULTS: Final = (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError, struct.error)
+"""Errors that Pillow raises for damaged pictures."""
+
 VECTOR_FILES: Final = (
     "GeoPackage, SpatiaLite, FlatGeobuf, shapefile, FileGDB, KML, KMZ, GPX, GML, GeoParquet, Feather, CSV of places"
 )
@@ -234,9 +237,7 @@ def picture_size(content: bytes) -> tuple[str, int, int] | None:
     try:
         with warnings.catch_warnings(action="ignore"), Image.open(BytesIO(content), formats=PICTURE_FORMATS) as picture:
             return str(picture.format), picture.width, picture.height
-    except Image.DecompressionBombError:
-        return None
-    except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError, struct.error):
+    except (Image.DecompressionBombError, *PICTURE_FAULTS):
         return None  # too large or damaged: its reader reports it
 
 

@@ -1,7 +1,6 @@
 """Pixels of a picture's file: decoded, upright, in sRGB."""
 
 import os
-import struct
 import warnings
 from io import BytesIO
 from typing import TYPE_CHECKING, Final, NamedTuple
@@ -9,7 +8,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from vexture.base.content import PICTURE_FORMATS, PNG, FileKind, kind_of, read_bytes, start_of
+from vexture.base.content import PICTURE_FAULTS, PICTURE_FORMATS, PNG, FileKind, kind_of, read_bytes, start_of
 from vexture.base.errors import LimitError, SourceError, reason_of
 
 if TYPE_CHECKING:  # imported at run time for pictures only
@@ -92,7 +91,7 @@ def decode_picture(source: str | os.PathLike[str] | bytes) -> DecodedPicture:
                 return _decode(picture, content)
     except Image.DecompressionBombError:
         raise LimitError(f"has far more than {MOST_PIXELS:,} pixels, which is the limit; scale it down") from None
-    except (OSError, SyntaxError, ValueError, EOFError, IndexError, TypeError, KeyError, struct.error) as error:
+    except PICTURE_FAULTS as error:
         why = reason_of(error)
         if isinstance(error, UnidentifiedImageError):  # its text names an object in memory
             why = "its first bytes are those of a picture, and no more"
