@@ -130,7 +130,7 @@ function decodeData(link) {
   if (body === undefined) throw new VextureError('its data: URL has no data', 'href');
   const latin = body.replace(/%([\da-f]{2})/gi, (_, code) => String.fromCharCode(parseInt(code, 16)));
   try {
-    const bytes = head.toLowerCase().endsWith(';base64') ? atob(latin.replace(/\s/g, '')) : unescapedBytes(latin);
+    const bytes = /; *base64 *$/i.test(head) ? atob(latin.replace(/\s/g, '')) : unescapedBytes(latin);
     return Uint8Array.from(bytes, (letter) => letter.charCodeAt(0));
   } catch {
     throw new VextureError('its data is no base64', 'href');

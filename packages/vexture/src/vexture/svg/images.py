@@ -192,12 +192,14 @@ def decode_data_url(link: str) -> bytes:
     --------
     >>> decode_data_url("data:image/svg+xml,%3Csvg/%3E"), decode_data_url("data:;base64,PHN2 Zy8+")
     (b'<svg/>', b'<svg/>')
+    >>> decode_data_url("data:image/svg+xml ; base64 ,PHN2Zy8+")  # spaces as in the Fetch standard, 6
+    b'<svg/>'
     """
     head, comma, body = link.partition("#")[0].partition(",")
     if not comma:
         raise SourceError("its data: URL has no data")
     content = unquote_to_bytes(body)
-    if not head.lower().endswith(";base64"):
+    if not re.search("; *base64$", head.rstrip(" "), re.IGNORECASE):
         return content
     try:
         return b64decode(b"".join(content.split()))
