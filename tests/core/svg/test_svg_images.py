@@ -1,6 +1,6 @@
 """Images in an SVG: pictures traced where they stand, files only from beside the drawing, everything else named.
 
-Pictures that are drawn are in `test_svg_pictures.py`.
+Pictures that are drawn are in `test_embedded_pictures.py`.
 """
 
 import base64
