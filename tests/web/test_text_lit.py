@@ -1,7 +1,6 @@
 """Texts in light and colour: their shadows, their normals, and the rays that meet them, wherever they are bent to."""
 
 import base64
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -9,10 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 from test_color_glyphs import GREEN, color_font, glyph, layers, solid
-from test_text_page import PAGE, WORKER, font
+from text_site import fill_text_site
 
-from build_wasm import OUTPUT
-from chromium import WEB, bundle, serve_folder
+from chromium import serve_folder
 
 SHADOW = """async (kind) => {
     const renderer = new THREE.WebGLRenderer(), scene = new THREE.Scene(), side = 128;
@@ -54,15 +52,8 @@ SHADOW = """async (kind) => {
 @pytest.fixture(scope="module")
 def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
     def fill(folder: Path) -> None:
-        bundle(PAGE, folder / "text.js")
-        bundle(WORKER, folder / "worker.js")
-        shutil.copy(WEB / "node_modules" / "harfbuzzjs" / "dist" / "harfbuzz.wasm", folder)
-        shutil.copy(font(), folder / "font.ttf")
+        fill_text_site(folder)
         color_font(folder / "ink.ttf", layers(glyph("left", solid(0xFFFF)), glyph("strip", solid(GREEN))))
-        for name in ("silhouettes", "maps", "strokes"):
-            shutil.copy(OUTPUT / f"{name}.wasm", folder)
-        icon = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><body>'
-        (folder / "text.html").write_text(f'{icon}<script type="module" src="text.js"></script>', encoding="utf-8")
 
     with serve_folder(made_once("text_lit", fill)) as url:
         yield url

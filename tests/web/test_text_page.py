@@ -1,25 +1,21 @@
 """Texts of `vexture/text` and `vexture/webgpu` in a real browser, against the exact renderer."""
 
 import base64
-import shutil
 from collections.abc import Callable, Iterator
 from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from text_site import fill_text_site, font
 
 import vexture
-from build_wasm import OUTPUT
-from chromium import WEB, bundle, serve_folder
+from chromium import serve_folder
 from vexture.drawing.drawing import Drawing
 from vexture.renderers.exact import render_exact
 
-PAGE = Path(__file__).parent / "pages" / "text.js"
-WORKER = WEB / "src" / "typeset" / "worker.js"
 WORD = "Hafen &ĝ5"
 BACKENDS = ("webgl", "fallback", "webgpu")
 SIZE = (160, 60)
@@ -35,26 +31,9 @@ SNAPPED = 1 / 16
 Picture = NDArray[np.float64]
 
 
-def font() -> Path:
-    """Noto Sans, a variable font, which `vexture.text` takes by default."""
-    found = find_spec("fontpkg_noto_sans")
-    assert found is not None, "the extra text is installed for tests"
-    return Path(str(found.origin)).parent / "files" / "NotoSans[wdth,wght].ttf"
-
-
 @pytest.fixture(scope="module")
 def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
-    def fill(folder: Path) -> None:
-        bundle(PAGE, folder / "text.js")
-        bundle(WORKER, folder / "worker.js")
-        shutil.copy(WEB / "node_modules" / "harfbuzzjs" / "dist" / "harfbuzz.wasm", folder)
-        shutil.copy(font(), folder / "font.ttf")
-        for name in ("silhouettes", "maps", "strokes"):
-            shutil.copy(OUTPUT / f"{name}.wasm", folder)
-        icon = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><body>'
-        (folder / "text.html").write_text(f'{icon}<script type="module" src="text.js"></script>', encoding="utf-8")
-
-    with serve_folder(made_once("text", fill)) as url:
+    with serve_folder(made_once("text", fill_text_site)) as url:
         yield url
 
 

@@ -6,28 +6,22 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from test_text_page import PAGE, WORKER, font
+from text_site import HARFBUZZ, fill_text_site
 
-from build_wasm import OUTPUT
-from chromium import WEB, bundle, serve_folder
+from chromium import serve_folder
 from guides import blocks_of
 
 
 @pytest.fixture(scope="module")
 def address(chromium: Any, made_once: Callable[..., Path]) -> Iterator[str]:
     def fill(folder: Path) -> None:
-        bundle(PAGE, folder / "text.js")
-        bundle(WORKER, folder / "worker.js")
+        fill_text_site(folder)
         (folder / "elsewhere").mkdir()
         (folder / "typeset").mkdir()
         shutil.copy(folder / "worker.js", folder / "typeset")
-        shutil.copy(WEB / "node_modules" / "harfbuzzjs" / "dist" / "harfbuzz.wasm", folder / "elsewhere")
-        shutil.copy(font(), folder / "font.ttf")
-        for name in ("silhouettes", "maps", "strokes"):
-            shutil.copy(OUTPUT / f"{name}.wasm", folder)
-            shutil.copy(OUTPUT / f"{name}.wasm", folder / "elsewhere")
-        icon = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><body>'
-        (folder / "text.html").write_text(f'{icon}<script type="module" src="text.js"></script>', encoding="utf-8")
+        shutil.move(folder / HARFBUZZ.name, folder / "elsewhere")
+        for module in folder.glob("*s.wasm"):
+            shutil.copy(module, folder / "elsewhere")
 
     with serve_folder(made_once("text_start", fill)) as url:
         yield url
