@@ -12,17 +12,17 @@ from types import ModuleType
 from typing import Final
 
 from both_languages import both
-from vexture.base import layout
+from vexture.base import layout, pixels
 from vexture.base.tolerance import CLOSED, ROUND
 from vexture.drawing.unit_square import FARTHEST
 from vexture.fold import layout as fold_layout
 from vexture.renderers.shader import PARTS, WRAPS, read_shader, shader_text
-from vexture.svg import paint_servers, pattern_tiles, scene, values
+from vexture.svg import images, paint_servers, pattern_tiles, scene, values
 from vexture.svg.animations import ANIMATIONS
 from vexture.svg.document import LANGUAGE, MOST_ATTRIBUTES
 from vexture.svg.filters import STEP
 from vexture.svg.painter import MOST_SEGMENTS
-from vexture.svg.pictures import MOST_TEXELS
+from vexture.svg.pictures import MOST_TEXELS, PIXELATED
 from vexture.svg.properties import BLENDS
 from vexture.svg.space import MOST_MASKS
 from vexture.svg.strokes import MOST_DASHES
@@ -219,11 +219,14 @@ def reader_module() -> str:
         "MOST_ATTRIBUTES": MOST_ATTRIBUTES,
         "MOST_DASHES": MOST_DASHES,
         "MOST_MASKS": MOST_MASKS,
+        "MOST_FILE_PIXELS": pixels.MOST_PIXELS,
+        "MOST_PICTURE_PIXELS": images.MOST_PIXELS,
         "MOST_PICTURE_TEXELS": MOST_TEXELS,
         "MOST_SEGMENTS": MOST_SEGMENTS,
         "MOST_STOPS": paint_servers.MOST_STOPS,
         "MOST_TILED": pattern_tiles.MOST,
         "MOST_USED": scene.MOST_USED,
+        "PIXELATED": sorted(PIXELATED),
         "PIXELS": values.PIXELS,
         "ROUND": ROUND,
         "UNKNOWN_SERVERS": paint_servers.UNKNOWN,

@@ -1,4 +1,5 @@
 // Pictures in a drawing: their size from their first bytes, and their pixels as the browser decodes them.
+import { MOST_FILE_PIXELS } from '../../generated/svg-reader.js';
 import { VextureError } from '../errors.js';
 
 /**
@@ -8,9 +9,6 @@ import { VextureError } from '../errors.js';
  * @property {Uint8Array} rgba red, green, blue and opacity, premultiplied sRGB, row by row from the top
  * @property {string} label what a note calls it
  */
-
-/** Most pixels of a picture, as in Python: more would fill the memory before they are read. */
-const MOST_PIXELS = 5e7;
 
 /** Message for what is no image. */
 export const NO_IMAGE = 'it is no SVG, PNG, JPEG, WebP, GIF or BMP';
@@ -74,8 +72,8 @@ export async function decodePicture(bytes, label) {
   const fault = (/** @type {string} */ text) => new VextureError(text, 'href');
   if (!size) throw fault(NO_IMAGE);
   const { columns, rows } = size;
-  if (columns * rows > MOST_PIXELS) {
-    throw fault(`it has ${columns} x ${rows} pixels; the limit is ${MOST_PIXELS.toLocaleString('en-US')}; scale it down`);
+  if (columns * rows > MOST_FILE_PIXELS) {
+    throw fault(`it has ${columns} x ${rows} pixels; the limit is ${MOST_FILE_PIXELS.toLocaleString('en-US')}; scale it down`);
   }
   if (typeof createImageBitmap !== 'function') throw fault('nothing decodes pictures outside of a browser; convert it in a page or in Python');
   const bitmap = await createImageBitmap(new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (bytes)])).catch(() => {

@@ -1,4 +1,5 @@
 // Images in an SVG (SVG 2, 12.3): embedded drawings and pictures are drawn; nothing is fetched.
+import { MOST_PICTURE_PIXELS, PIXELATED } from '../../generated/svg-reader.js';
 import { VextureError } from '../errors.js';
 import { IDENTITY, inverse, multiply, translate } from './affine.js';
 import { loopOf, rectangle } from './contours.js';
@@ -23,12 +24,6 @@ const DEEPEST = 4;
 
 /** Most different images of a drawing. */
 const MOST_IMAGES = 256;
-
-/** Most pixels of all pictures of a drawing, as in Python. */
-const MOST_PIXELS = 1e8;
-
-/** Values of `image-rendering` that show the squares of pixels (CSS Images 3, 6.1; older browsers' own; SVG 1.1). */
-const SQUARES = new Set(['pixelated', 'crisp-edges', '-moz-crisp-edges', 'optimizespeed']);
 
 /**
  * Paint an image at a place with its own style, or note why not.
@@ -56,7 +51,7 @@ export function* paintImage(scene, element, place, painter) {
 
 /** @param {Pixels} pixels @param {Place} place in units of pixels @param {import('./painter.js').Painter} painter */
 function* paintPixels(pixels, place, painter) {
-  const isSquares = SQUARES.has(place.style.get('image-rendering').toLowerCase());
+  const isSquares = PIXELATED.includes(place.style.get('image-rendering').toLowerCase());
   const toPixels = rowsOf(inverse(place.space.whole));
   const paint = paintOfPicture({ toPixels, pixels, sampling: isSquares ? 0 : 1, opacity: 1 });
   yield* painter.add([loopOf(rectangle(0, 0, pixels.columns, pixels.rows))], place, 0, paint, place.name);
@@ -96,8 +91,8 @@ function* openImage(scene, link) {
     if (!size) return yield* openDrawing(scene, new TextDecoder().decode(bytes));
     label = `an embedded ${size.format} of ${size.columns} x ${size.rows}`;
     scene.pictures.pixels += size.columns * size.rows;
-    if (scene.pictures.pixels > MOST_PIXELS) {
-      throw new VextureError(`the pictures of the drawing have more than ${MOST_PIXELS.toLocaleString('en-US')} pixels`, 'href');
+    if (scene.pictures.pixels > MOST_PICTURE_PIXELS) {
+      throw new VextureError(`the pictures of the drawing have more than ${MOST_PICTURE_PIXELS.toLocaleString('en-US')} pixels`, 'href');
     }
     return yield* decoded(bytes, label);
   } catch (error) {
