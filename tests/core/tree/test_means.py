@@ -71,7 +71,7 @@ def box_means(pixels: np.ndarray) -> np.ndarray:
 
 
 @pytest.mark.parametrize("side", [2, 64, 512])
-@pytest.mark.parametrize("sampling", Sampling)
+@pytest.mark.parametrize("sampling", [Sampling.PIXELS, Sampling.LINEAR])
 def test_means_of_noise_are_exact(side: int, sampling: Sampling) -> None:
     rng = np.random.default_rng(side)
     pixels = random_pixels(rng, side, side)
