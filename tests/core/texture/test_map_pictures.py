@@ -191,7 +191,7 @@ def test_pictures_in_too_many_groups_are_flat_and_noted() -> None:
         ("programs", 0, 2, 0, "pixels elsewhere"),
         ("programs", 0, 2, 2, "pixels elsewhere"),
         ("programs", 0, 2, (1 << 32) - 1, "pixels elsewhere"),
-        ("programs", 0, 3, 2, "opacity or sampling"),
+        ("programs", 0, 3, 5, "opacity or sampling"),
         ("programs", 1, 3, 0, "wrong length"),
         ("programs", 1, 0, 0x7F800000, "not finite"),
         ("programs", 2, 2, 0x7FC00000, "not finite"),

@@ -21,11 +21,23 @@ from vexture.base.layout import (
     STOP_BITS,
     STOP_COUNT_BITS,
 )
+from vexture.texture.opacity_texels import count_opacity_texels, write_opacities
 from vexture.texture.pixel_texels import count_pixel_texels, write_pixels
 from vexture.tree.planar.compose import KEEP, SHADE, SOLID
 from vexture.tree.planar.pixels import SIZE, size_at
 from vexture.tree.planar.programs import ProgramTable
-from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, OFFSET, PICTURE, RADIUS, SPREAD, Shades
+from vexture.tree.planar.shades import (
+    COUNT,
+    FIRST,
+    FOCUS,
+    OFFSET,
+    PICTURE,
+    RADIUS,
+    SAMPLING_BITS,
+    SPREAD,
+    Shades,
+)
+from vexture.tree.planar.splines import OPACITY
 
 SPREAD_SHIFT: Final = STOP_BITS + STOP_COUNT_BITS
 """Position of the spread in a gradient's word."""
@@ -66,6 +78,12 @@ def count_operations(table: ProgramTable, shades: Shades) -> int:
     return texels
 
 
+@kernel(allocates=False)
+def _sampling(row: NDArray[np.float64]) -> int:
+    """Sampling of a picture."""
+    return int(row[SPREAD]) & (1 << SAMPLING_BITS) - 1
+
+
 @kernel
 def stop_runs(table: ProgramTable, shades: Shades) -> StopRuns:
     """Runs of the stops and pixels of all programs, in the order of their first use."""
@@ -86,8 +104,11 @@ def stop_runs(table: ProgramTable, shades: Shades) -> StopRuns:
             slots[slot], row = number + 1, shades.rows[number]
             if row[FOCUS] == PICTURE:
                 first[number] = pixels
-                columns, rows = size_at(shades.pixels, int(row[FIRST]))
-                pixels += count_pixel_texels(columns, rows)
+                if _sampling(row) >= OPACITY:
+                    pixels += count_opacity_texels(shades.pixels, int(row[FIRST]))
+                else:
+                    columns, rows = size_at(shades.pixels, int(row[FIRST]))
+                    pixels += count_pixel_texels(columns, rows)
             else:
                 first[number] = after
                 after += int(row[COUNT])
@@ -179,7 +200,10 @@ def write_programs(
             for c in range(3):
                 out[runs.first[g] + k, c] = runs.words[int(shades.rows[g, FIRST]) + k, c]
         if runs.owner[g] == g and shades.rows[g, FOCUS] == PICTURE:
-            write_pixels(shades.pixels, int(shades.rows[g, FIRST]), runs.first[g], out)
+            if _sampling(shades.rows[g]) >= OPACITY:
+                write_opacities(shades.pixels, int(shades.rows[g, FIRST]), runs.first[g], out)
+            else:
+                write_pixels(shades.pixels, int(shades.rows[g, FIRST]), runs.first[g], out)
 
 
 @kernel(allocates=False)
@@ -228,9 +252,10 @@ def _write_picture(
     out[row, 0] = int(np.rint(PAINT_ONE * shade[RADIUS]))
     out[row, 1] = shades.pixels[int(shade[FIRST]) + SIZE]
     out[row, 2] = runs.first[number] - row
-    out[row, 3] = KIND_PICTURE << KIND_SHIFT | int(shade[SPREAD])
+    out[row, 3] = KIND_PICTURE << KIND_SHIFT | _sampling(shade)
     for k in range(2):
         for c in range(3):
             out[row + 1 + k, c] = bits[number, 3 * k + c]
         out[row + 1 + k, 3] = KIND_FOLLOWS << KIND_SHIFT
+    out[row + 1, 3] |= np.uint32(int(shade[SPREAD]) >> SAMPLING_BITS)  # the colour of a picture of opacities
     return 3

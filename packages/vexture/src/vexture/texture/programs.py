@@ -10,13 +10,14 @@ from vexture.base.errors import FormatError
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Spread
 from vexture.drawing.picture import Sampling
+from vexture.texture.opacity_texels import FIRST_BLOCK, count_blocks, entries_of, read_opacities
 from vexture.texture.pixel_texels import first_bad_pixel, read_pixels
 from vexture.texture.program_texels import SPREAD_SHIFT
 from vexture.texture.walk import REMEDY
 from vexture.tree.planar.compose import KEEP, MIX, SHADE, SOLID
 from vexture.tree.planar.pixels import BYTE, FIRST_PIXEL, SIDE_BITS
 from vexture.tree.planar.programs import ProgramTable, number_of_ending
-from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, PICTURE, RADIUS, SPREAD, Shades
+from vexture.tree.planar.shades import COUNT, FIRST, FOCUS, PICTURE, RADIUS, SAMPLING_BITS, SPREAD, Shades
 
 ENDS: Final = [*map(number_of_ending, Blend), *(number_of_ending(mask) for mask in Mask if mask)]
 """Numbers of the allowed endings of a group."""
@@ -26,6 +27,10 @@ CODES: Final = np.array([SHADE, SOLID, SHADE, SHADE, SHADE, KEEP, MIX, 0])
 
 FOLLOWING: Final = np.array([2, 0, 0, 1, 2, 0, 0, 0])
 """Number of texels of the kind `FOLLOWS` after the first texel of an operation, by its kind."""
+
+
+COLOUR: Final = (1 << 3 * layout.CELL_BITS) - 1
+"""Bits of the colour of a picture of opacities."""
 
 
 def halves(words: NDArray[np.uint32]) -> NDArray[np.uint32]:
@@ -89,11 +94,13 @@ def _read_pictures(texels: ProgramTexels, rows: NDArray[np.int64]) -> tuple[NDAr
     parts, end, found = [np.zeros(0, np.uint32)], 0, np.zeros((len(rows), 11))
     for k, key in enumerate(zip(*(part.tolist() for part in _pictures_in(texels, rows)), strict=True)):
         if key not in begins:
-            words = read_pixels(texels.pixels, *key)
-            parts += [
-                np.array([key[1] | key[2] << SIDE_BITS, (words >> 3 * layout.CELL_BITS == BYTE).all()], np.uint32),
-                words,
-            ]
+            is_opaque = False
+            if texels.operations[rows[k], 3] >= Sampling.OPACITY:
+                words = read_opacities(texels.pixels, *key)
+            else:
+                words = read_pixels(texels.pixels, *key)
+                is_opaque = bool((words >> 3 * layout.CELL_BITS == BYTE).all())
+            parts += [np.array([key[1] | key[2] << SIDE_BITS, is_opaque], np.uint32), words]
             begins[key], end = end, end + FIRST_PIXEL + len(words)
         found[k, FIRST] = begins[key]
     for part in range(2):
@@ -101,7 +108,8 @@ def _read_pictures(texels: ProgramTexels, rows: NDArray[np.int64]) -> tuple[NDAr
             np.float32
         )
     found[:, FOCUS], found[:, RADIUS] = PICTURE, texels.operations[rows, 0] / layout.PAINT_ONE
-    found[:, SPREAD] = texels.operations[rows, 3]
+    colours = texels.operations[rows + 1, 3].astype(np.int64) & COLOUR
+    found[:, SPREAD] = texels.operations[rows, 3] | colours << SAMPLING_BITS
     return found, np.concatenate(parts)
 
 
@@ -137,6 +145,8 @@ def check_programs(texels: ProgramTexels, runs: dict[int, tuple[int, int]]) -> N
     rest = operations[:, 3] & np.uint32((1 << layout.KIND_SHIFT) - 1)
     is_gradient = (kind >= layout.KIND_LINEAR) & (kind <= layout.KIND_FOCAL)
     is_picture = kind == layout.KIND_PICTURE
+    is_soft = np.flatnonzero(is_picture & (rest >= Sampling.OPACITY))
+    rest[is_soft + 1] &= np.uint32(~COLOUR & 0xFFFFFFFF)
     _need(
         not rest[~is_gradient & ~is_picture].any() and not operations[kind == layout.KIND_KEEP, :3].any(),
         "a word that is not 0",
@@ -194,10 +204,22 @@ def _check_pictures(texels: ProgramTexels, rows: NDArray[np.int64]) -> None:
         bool(((sides >= 1) & (sides <= layout.MOST_PICTURE_SIDE)).all()),
         f"a picture without pixels, or more than {layout.MOST_PICTURE_SIDE} a side",
     )
-    pictures = np.unique(np.column_stack([first, columns, lines]), axis=0)
-    ends = pictures[:, 0] + np.array([_texels_of_picture(*size) for size in pictures[:, 1:].tolist()], np.int64)
-    is_inside = (operations[:, 2] > 0).all() and (first >= 0).all() and (ends <= len(texels.pixels)).all()
-    _need(bool(is_inside), "pixels elsewhere")
+    _need(bool((operations[:, 2] > 0).all() and (first >= 0).all()), "pixels elsewhere")
+    are_opacities = operations[:, 3] >= Sampling.OPACITY
+    pictures = np.unique(np.column_stack([first, columns, lines, are_opacities]), axis=0)
+    ends = np.array([_end_of_picture(texels.pixels, *key) for key in pictures.tolist()], np.int64)
+    _need(bool((ends <= len(texels.pixels)).all()), "pixels elsewhere")
     _need(bool((pictures[1:, 0] >= ends[:-1]).all()), "pictures that overlap")
-    bad = first_bad_pixel(texels.pixels)
-    _need(bad is None, f"a colour above its opacity in texel {bad} of pixels")
+    for (begin, *_, is_soft), end in zip(pictures.tolist(), ends.tolist(), strict=True):
+        bad = None if is_soft else first_bad_pixel(texels.pixels[begin:end])
+        _need(bad is None, f"a colour above its opacity in texel {begin + (bad or 0)} of pixels")
+
+
+def _end_of_picture(pixels: NDArray[np.uint32], first: int, columns: int, rows: int, is_soft: bool) -> int:
+    """Return the texel after a picture; raise a `FormatError` if its index does not fit."""
+    if not is_soft:
+        return first + _texels_of_picture(columns, rows)
+    entries = entries_of(pixels, first, columns, rows)
+    count = count_blocks(columns, rows)
+    _need(len(entries) >= count and not entries[count:].any(), "an index of blocks")
+    return first + len(entries) // 8 + max(int(entries.max(initial=0)) + 1 - FIRST_BLOCK, 0)

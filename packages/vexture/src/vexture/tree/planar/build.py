@@ -317,33 +317,44 @@ def build_map(
     (1, array([1., 0., 0., 1.]), array([0., 0., 0., 1.]))
     """
     bounds = bounds_of(tolerance, max_depth, capacity, precision, most_quads, DEFAULT_MAP_CAPACITY)
+    state = grow_drawing(drawing, bounds, most_texels, restyle, threads)
+    return None if state is None else map_of(drawing.name, state)
+
+
+def grow_drawing(
+    drawing: Drawing,
+    bounds: Bounds,
+    most_texels: int | None = None,
+    restyle: bool = False,
+    threads: int | None = None,
+) -> State | None:
+    """Divide the unit square for a drawing until no cell waits; parameters and result are as in `build_map`."""
     source = source_of(drawing, restyle)
     check_time(drawing.name)
-    *root, outside, reach = plant_map(source, max_depth, int(restyle))
+    *root, outside, reach = plant_map(source, bounds.max_depth, int(restyle))
     check_reach(reach)
     if not outside <= CLOSED:  # NaN counts as outside
         raise SourceError(f"{drawing.name}: a curve leaves the unit square by {outside:.3g}; clip or scale it first")
     most = MOST_WORDS if most_texels is None else most_texels
 
     def step(state: State, aside: int) -> State:
-        check_growth(int(state.growth.tree.counts[QUADS]), most_quads, drawing.name)
+        check_growth(int(state.growth.tree.counts[QUADS]), bounds.most_quads, drawing.name)
         growth, faces = grow_map(*state, bounds, most, SLICE, aside)
         return State(planar_growth_from(growth), state.layers, FaceTable(*faces))
 
     def check(quads: int, curves: int) -> bool:
-        check_growth(quads, most_quads, drawing.name)
+        check_growth(quads, bounds.most_quads, drawing.name)
         return texels_of(quads, curves) <= most
 
     state = state_from(*root)
     # only drawings with hidden paths: parts number paints in another order, and other drawings must keep their bytes
     if restyle and state.layers.hides.any() and state.growth.tree.stack[0, LAST] > LARGE:
-        grown = grow_map_parts(state, step, usual_threads() if threads is None else threads, check)
-        return None if grown is None else map_of(drawing.name, grown)
+        return grow_map_parts(state, step, usual_threads() if threads is None else threads, check)
     while state.growth.tree.counts[WAITING] > 0:
         state = step(state, 0)
         if not check(*state.growth.tree.counts[[QUADS, CURVES]].tolist()):
             return None
-    return map_of(drawing.name, state)
+    return state
 
 
 def check_reach(reach: float) -> None:

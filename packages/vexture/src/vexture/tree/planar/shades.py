@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from vexture.base.errors import SourceError
 from vexture.base.kernels import kernel
 from vexture.base.layout import MOST_PICTURE_SIDE
-from vexture.drawing.paint import Gradient, Spread, Stop
+from vexture.drawing.paint import Color, Gradient, Spread, Stop
 from vexture.drawing.picture import Picture, Sampling
 from vexture.drawing.unit_square import FARTHEST
-from vexture.tree.planar.pixels import IS_OPAQUE, SIDE_BITS, SIZE, list_pixels, mean_of_picture, pixels_at
+from vexture.tree.planar.pixels import BYTE, IS_OPAQUE, SIDE_BITS, SIZE, list_pixels, mean_of_picture, pixels_at
+from vexture.tree.planar.splines import INVERSE, OPACITY
 
 REFLECT, REPEAT = int(Spread.REFLECT), int(Spread.REPEAT)
 
@@ -31,8 +32,11 @@ class Shades(NamedTuple):
 FOCUS, RADIUS, SPREAD, FIRST, COUNT = range(6, 11)
 """Columns of a gradient: focal point and radius, -1 if it is linear; spread; first stop; number of stops.
 
-Those of a picture: `PICTURE`; opacity; sampling; where its words begin among the pixels; 0.
+Those of a picture: `PICTURE`; opacity; sampling, and above its `SAMPLING_BITS` the colour of a picture of opacities,
+red, green and blue from the low byte up; where its words begin among the pixels; 0.
 """
+
+SAMPLING_BITS: Final = 3
 
 PICTURE = -2.0
 """Value of `FOCUS` in the row of a picture."""
@@ -65,12 +69,24 @@ def shades_of(listed: Sequence[Shade]) -> Shades:
     for one in listed:
         if isinstance(one, Picture):
             check_map(one)
-            rows.append([*one.to_pixels[0], *one.to_pixels[1], PICTURE, one.opacity, one.sampling, next(begin), 0])
+            sampling = one.sampling | pack_color(one.color or (0.0, 0.0, 0.0)) << SAMPLING_BITS
+            rows.append([*one.to_pixels[0], *one.to_pixels[1], PICTURE, one.opacity, sampling, next(begin), 0])
             continue
         focus = one.focus or (-1.0, -1.0)
         rows.append([*one.to_ramp[0], *one.to_ramp[1], *focus, one.spread, len(stops), len(one.stops)])
         stops += [(*stop.color, stop.opacity, stop.offset) for stop in one.stops]
     return Shades(np.array(rows, np.float64).reshape(-1, 11), np.array(stops, np.float64).reshape(-1, 5), pixels)
+
+
+def pack_color(color: Color) -> int:
+    """Return a colour as a number: red, green and blue, from the low byte up."""
+    return sum(round(BYTE * part) << 8 * c for c, part in enumerate(color))
+
+
+def unpack_color(number: int) -> Color:
+    """Return the colour that `pack_color` made a number."""
+    red, green, blue = ((number >> 8 * c & BYTE) / BYTE for c in range(3))
+    return red, green, blue
 
 
 def shade_of(shades: Shades, number: int) -> Shade:
@@ -79,7 +95,10 @@ def shade_of(shades: Shades, number: int) -> Shade:
     first, count = int(row[FIRST]), int(row[COUNT])
     rows = (row[0], row[1], row[2]), (row[3], row[4], row[5])
     if row[FOCUS] == PICTURE:
-        return Picture(rows, pixels_at(shades.pixels, first), Sampling(int(row[SPREAD])), row[RADIUS])
+        word = int(row[SPREAD])
+        sampling = Sampling(word & (1 << SAMPLING_BITS) - 1)
+        color = unpack_color(word >> SAMPLING_BITS) if sampling.components == 1 else None
+        return Picture(rows, pixels_at(shades.pixels, first, sampling.components), sampling, row[RADIUS], color)
     stops = [Stop(t, (r, g, b), a) for r, g, b, a, t in shades.stops[first : first + count].tolist()]
     focus = None if row[FOCUS] < 0.0 else (row[FOCUS], row[RADIUS])
     return Gradient(rows, tuple(stops), Spread(int(row[SPREAD])), focus)
@@ -186,7 +205,14 @@ def shade_over(
         return
     place = row[0] * x + row[1] * y + row[2], row[3] * x + row[4] * y + row[5]
     across, down = _length(row[0] * width, row[1] * height), _length(row[3] * width, row[4] * height)
-    mean_of_picture(shades.pixels, int(row[FIRST]), int(row[SPREAD]), place, (across, down), out)
+    word = int(row[SPREAD])
+    sampling, color = word & (1 << SAMPLING_BITS) - 1, word >> SAMPLING_BITS
+    mean_of_picture(shades.pixels, int(row[FIRST]), sampling, place, (across, down), out)
+    if sampling >= OPACITY:
+        opacity = 1.0 - out[0] if sampling == INVERSE else out[0]
+        for c in range(3):
+            out[c] = opacity * ((color >> 8 * c & BYTE) / BYTE)
+        out[3] = opacity
     for c in range(4):
         out[c] *= row[RADIUS]
 

@@ -16,6 +16,7 @@ from vexture.drawing.group import Blend
 from vexture.drawing.paint import Paint
 from vexture.tree.bounds import TreeParameters
 from vexture.tree.build import build_tree
+from vexture.tree.planar.blurs import with_splines
 from vexture.tree.planar.build import build_map
 from vexture.tree.planar.map import PlanarMap
 from vexture.tree.tree import Tree
@@ -66,6 +67,7 @@ def sheets_of(drawing: Drawing, restyle: bool = False, **parameters: Unpack[Tree
     those of `build_map`. A `precision` does not affect the cutting: the texels that it adds grow with the length of
     outlines, as those of layers do, not with their crossings.
     """
+    drawing = with_splines(drawing)
     precision = parameters.pop("precision", None)
     sheets = _within_budget(drawing, restyle, **parameters)
     if precision is None:

@@ -48,6 +48,7 @@ def source_of(drawing: Drawing, restyle: bool = False) -> MapSource:
         paint = one.paint
         colours.append((*paint.color, paint.opacity))
         place = -1
+        assert not paint.is_soft, "a blur is a picture here; see `vexture.tree.planar.blurs`"
         shade = paint.gradient or paint.picture
         if shade is not None:
             place = number.setdefault(id(shade), len(listed))
