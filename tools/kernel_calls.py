@@ -27,7 +27,9 @@ from vexture.tree.planar.build import DEFAULT_MAP_CAPACITY, build_map, grow_map,
 from vexture.tree.planar.faces import add_faces, new_faces, refill, trim_faces
 from vexture.tree.planar.growth import with_map_room
 from vexture.tree.planar.map import arrange_map, texels_of
+from vexture.tree.planar.raster import raster_of
 from vexture.tree.planar.source import source_of
+from vexture.tree.planar.splines import BlurAxis, blurred_words
 from vexture.tree.tree import MOST_QUADS
 
 SHAPES: Final = Path(__file__).parent.parent / "examples" / "shapes"
@@ -77,6 +79,11 @@ def map_calls(drawing: Drawing) -> Iterator[tuple[Any, tuple[Any, ...]]]:
         done = grow_map.dispatcher(*plant_map.dispatcher(source, 16, 0)[:3], bounds, ENDLESS, ENDLESS, 0)
         state = done[0], layers, done[1]
         yield arrange_map, state
+        for components in (1, 4):
+            raster = raster_of.dispatcher(*state, 4, components)
+            yield raster_of, (*state, 4, components)
+            axis = BlurAxis(-1.0, 1.5, 12, 2.0)
+            yield blurred_words, (raster, axis, axis, int(components == 4))
         yield encode_map, (arrange_map.dispatcher(*state)[0], 7)
     yield texels_of, (1, 2)
     table = 1024, 1024
@@ -125,7 +132,7 @@ def wasm_modules() -> dict[str, list[Entry]]:
                 coloured_texels,
                 (source_of(triangle), bounds._replace(capacity=DEFAULT_MAP_CAPACITY), 0, 0, ENDLESS, ENDLESS),
                 ("texels", "starts", "members", "hides", *numbers),
-            )
+            ),
         ],
         "strokes": [
             Entry(stroke_path, (outlines.cubics, ends, closed, style, np.zeros(0)), ("contours", "lengths")),

@@ -30,7 +30,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 ABOVE = {
     *("cli", "conversion", "fold", "fonts", "gltf", "notebook", "pages", "server", "svg", "tracing"),
     *("base/apart.py", "base/content.py", "base/labels.py", "base/pixels.py"),
-    *("drawing/blur.py", "drawing/sampled.py", "tree/planar/blurs.py"),
+    *("drawing/blur.py", "drawing/effect.py", "tree/planar/blurs.py"),
 }
 """Folders and modules whose changes need no recompilation: they hold neither kernels nor constants of kernels."""
 

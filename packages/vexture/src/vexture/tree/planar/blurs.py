@@ -1,6 +1,6 @@
-"""Replace the blurs of a drawing by splines, pictures whose pixels are coefficients, and sampled pictures by pixels."""
+"""Replace the blurs of a drawing by splines, pictures whose pixels are coefficients, and effects by their pixels."""
 
-from collections.abc import Callable, Hashable
+from collections.abc import Hashable
 from dataclasses import replace
 from math import ceil, log2
 from typing import Final
@@ -19,7 +19,7 @@ from vexture.tree.bounds import DEFAULT_DEPTH, DISPLACEMENT, bounds_of
 from vexture.tree.planar.build import DEFAULT_MAP_CAPACITY, grow_drawing
 from vexture.tree.planar.pixels import pixels_of_words
 from vexture.tree.planar.raster import raster_of
-from vexture.tree.planar.splines import blur_rows, spline_words, swap_sides
+from vexture.tree.planar.splines import BlurAxis, blurred_words
 from vexture.tree.tree import MOST_QUADS
 
 CELLS: Final = 2.0
@@ -31,14 +31,11 @@ LEAST_RASTER, MOST_RASTER = 4, 11
 MOST_COEFFICIENTS: Final = 750_000
 """Most coefficients of a blur: with its levels, it has fewer blocks than an index of 16 bits can number."""
 
-LEAST_OPACITY: Final = 1e-9
-"""Opacity below which a colour has no hue."""
-
 Key = tuple[Hashable, ...]
 
 
 def with_splines(drawing: Drawing) -> Drawing:
-    """Return the drawing with a picture in the place of each blur and sampled picture.
+    """Return the drawing with a picture in the place of each blur and effect.
 
     Examples
     --------
@@ -63,17 +60,17 @@ def with_splines(drawing: Drawing) -> Drawing:
 
 
 def _without_softness(paint: Paint, known: dict[Key, NDArray[np.uint8]]) -> Paint:
-    """Return a paint with a picture in the place of a blur or sampled picture.
+    """Return a paint with a picture in the place of a blur or effect.
 
     `known` holds pixels by what they depend on.
     """
-    blur, sampled = paint.blur, paint.sampled
-    if sampled is not None:
-        key: Key = (id(sampled.process), *map(id, sampled.sources), sampled.depth)
+    blur, effect = paint.blur, paint.effect
+    if effect is not None:
+        key: Key = (id(effect.process), *map(id, effect.sources), effect.depth)
         if key not in known:
-            rasters = tuple(_raster(source, sampled.depth, 4)[::-1] for source in sampled.sources)
-            known[key] = sampled.to_bytes(rasters)
-        return Paint.from_picture(Picture(sampled.to_pixels, known[key], Sampling.LINEAR, paint.opacity))
+            rasters = tuple(_raster(source, effect.depth, 4)[::-1] for source in effect.sources)
+            known[key] = effect.to_bytes(rasters)
+        return Paint.from_picture(Picture(effect.to_pixels, known[key], Sampling.LINEAR, paint.opacity))
     if blur is None:
         return paint
     key = (id(blur.source), blur.deviations, blur.window, blur.has_colors, blur.is_linear)
@@ -109,33 +106,12 @@ def _coefficients(blur: Blur) -> NDArray[np.uint8]:
             "make the deviation larger or the blurred part smaller"
         )
     depth = min(max(ceil(log2(CELLS / min(blur.deviations))), LEAST_RASTER), MOST_RASTER)
-    raster = _raster(blur.source, depth, components)
-    if blur.is_linear:
-        raster = _convert_colours(raster, _to_linear)
-    (left, low), (across, up) = blur.window[:2], blur.deviations
-    side = 1 << depth
-    for first, step, count, deviation in ((low, up, rows, up), (left, across, columns, across)):
-        spaced = SPACING * step * side
-        raster = swap_sides(blur_rows(raster, first * side - spaced, spaced, count, deviation * side))
-    if blur.is_linear:
-        raster = _convert_colours(raster, _from_linear)
-    return pixels_of_words(spline_words(raster), components)
-
-
-def _convert_colours(
-    colours: NDArray[np.float64], convert: Callable[[NDArray[np.float64]], NDArray[np.float64]]
-) -> NDArray[np.float64]:
-    """Convert premultiplied colours (rows, columns, 4) by a function of colours that are not."""
-    alpha = colours[..., 3:].clip(0.0, 1.0)
-    straight = (colours[..., :3] / np.maximum(alpha, LEAST_OPACITY)).clip(0.0, 1.0)
-    return np.concatenate([convert(straight) * alpha, alpha], axis=2)
-
-
-def _to_linear(encoded: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return sRGB components in linear light (IEC 61966-2-1)."""
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
-
-
-def _from_linear(linear: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return components of linear light in sRGB."""
-    return np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1.0 / 2.4) - 0.055)
+    (left, low), (across, up), side = blur.window[:2], blur.deviations, float(1 << depth)
+    steps = SPACING * side * across, SPACING * side * up
+    words = blurred_words(
+        _raster(blur.source, depth, components),
+        BlurAxis(low * side - steps[1], steps[1], rows, up * side),
+        BlurAxis(left * side - steps[0], steps[0], columns, across * side),
+        int(blur.is_linear),
+    )
+    return pixels_of_words(words, components)

@@ -3,7 +3,7 @@
 A coefficient belongs to the centre of its pixel. A row or column that does not exist is replaced by the nearest one.
 """
 
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,12 @@ SPLINE, OPACITY, INVERSE = int(Sampling.SPLINE), int(Sampling.OPACITY), int(Samp
 
 TAPER: Final = 4.5
 """Deviations from the middle at which a Gaussian is cut off."""
+
+LEAST_OPACITY: Final = 1e-9
+"""Opacity below which a colour has no hue."""
+
+STEPS: Final = 12
+"""Steps of Newton's method, with which a fifth root of 0.003 is exact to rounding."""
 
 HALVINGS: Final = 10
 """Squarings of exp(-t / 1024), whose series has few terms; ``exp`` of the C library differs between platforms."""
@@ -120,7 +126,7 @@ def to_coefficients(values: NDArray[np.float64]) -> None:
                 values[j, i, c] -= share[j] * values[j + 1, i, c]
 
 
-@kernel(ahead=True)
+@kernel
 def spline_words(values: NDArray[np.float64]) -> NDArray[np.uint32]:
     """Words (rows, columns) of the coefficients of the spline through values (rows, columns, components), 0..1.
 
@@ -141,3 +147,82 @@ def spline_words(values: NDArray[np.float64]) -> NDArray[np.uint32]:
                 word |= value << 8 * c
             words[j, i] = word
     return words
+
+
+class BlurAxis(NamedTuple):
+    """The values of a blur along one axis, in cells of its raster."""
+
+    first: float  # place of the first value
+    step: float
+    values: int  # number of them
+    deviation: float
+
+
+@kernel(ahead=True)
+def blurred_words(raster: NDArray[np.float64], down: BlurAxis, across: BlurAxis, is_linear: int) -> NDArray[np.uint32]:
+    """Words (rows, columns) of the spline of a blurred raster (side, side, components); see `spline_words`.
+
+    If `is_linear` is 1, colours are blurred in linear light. The raster is then overwritten.
+    """
+    if is_linear == 1:
+        _convert(raster, True)
+    values = swap_sides(blur_rows(raster, down.first, down.step, down.values, down.deviation))
+    values = swap_sides(blur_rows(values, across.first, across.step, across.values, across.deviation))
+    if is_linear == 1:
+        _convert(values, False)
+    return spline_words(values)
+
+
+@kernel(allocates=False)
+def _convert(values: NDArray[np.float64], is_encoded: bool) -> None:
+    """Convert premultiplied colours (rows, columns, 4) from sRGB to linear light, or back."""
+    rows, columns, _ = values.shape
+    for j in range(rows):
+        for i in range(columns):
+            alpha = min(max(values[j, i, 3], 0.0), 1.0)
+            for c in range(3):
+                straight = min(max(values[j, i, c] / max(alpha, LEAST_OPACITY), 0.0), 1.0)
+                values[j, i, c] = alpha * (to_linear(straight) if is_encoded else from_linear(straight))
+
+
+@kernel(allocates=False)
+def to_linear(encoded: float) -> float:
+    """Linear light of an sRGB component (IEC 61966-2-1); the power of 2.4 is x^2 (x^(1/5))^2.
+
+    Examples
+    --------
+    >>> round(to_linear(0.5), 9)
+    0.214041140
+    """
+    if encoded <= 0.04045:
+        return encoded / 12.92
+    x = (encoded + 0.055) / 1.055
+    root = _root(x, 5)
+    return x * x * root * root
+
+
+@kernel(allocates=False)
+def from_linear(linear: float) -> float:
+    """Return the sRGB component of linear light; the power of 5/12 is the twelfth root to the fifth.
+
+    Examples
+    --------
+    >>> round(from_linear(0.214041140), 9)
+    0.5
+    """
+    if linear <= 0.0031308:
+        return linear * 12.92
+    root = np.sqrt(np.sqrt(_root(linear, 3)))
+    return 1.055 * root * root * root * root * root - 0.055
+
+
+@kernel(allocates=False)
+def _root(x: float, degree: int) -> float:
+    """Root of a number in 0..1 above 0.003, by Newton's method from above; ``pow`` differs between platforms."""
+    root = 1.0
+    for _ in range(STEPS):
+        power = 1.0
+        for _ in range(degree - 1):
+            power *= root
+        root -= (root * power - x) / (degree * power)
+    return root

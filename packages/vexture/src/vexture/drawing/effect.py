@@ -1,18 +1,18 @@
-"""Pictures that a function makes of drawings: the results of filters that have to be sampled."""
+"""Pictures that a function makes of drawings: the results of filters that have to be sampled.
+
+A drawing has no type here, as it has paints itself.
+"""
 
 from collections.abc import Callable
 from copy import copy
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import SourceError
 from vexture.drawing.affine import Affine, compose_affine
-
-if TYPE_CHECKING:
-    from vexture.drawing.drawing import Drawing
 
 Pixels: TypeAlias = NDArray[np.float64]
 """Premultiplied sRGB and opacity, 0..1, (rows, columns, 4), the top row first."""
@@ -22,7 +22,7 @@ LEAST_DEPTH, MOST_DEPTH = 2, 9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sampled:
+class Effect:
     """A picture as a paint that a function makes of the pixels of drawings.
 
     Parameters
@@ -38,7 +38,7 @@ class Sampled:
         beyond 0..1, and colours above their opacity, are limited.
     """
 
-    sources: "tuple[Drawing, ...]"
+    sources: tuple[Any, ...]
     to_source: Affine
     depth: int
     process: Callable[[tuple[Pixels, ...]], Pixels]
@@ -47,11 +47,11 @@ class Sampled:
         if not LEAST_DEPTH <= self.depth <= MOST_DEPTH:
             raise SourceError(f"a sampled picture has 2^{self.depth} pixels a side; use {LEAST_DEPTH} to {MOST_DEPTH}")
 
-    def after(self, matrix: Affine) -> "Sampled":
+    def after(self, matrix: Affine) -> "Effect":
         """Return the picture in new coordinates; `matrix` maps the new ones to the old ones."""
-        sampled = copy(self)
-        object.__setattr__(sampled, "to_source", compose_affine(self.to_source, matrix))
-        return sampled
+        effect = copy(self)
+        object.__setattr__(effect, "to_source", compose_affine(self.to_source, matrix))
+        return effect
 
     @property
     def to_pixels(self) -> Affine:
