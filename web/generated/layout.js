@@ -1,10 +1,13 @@
 // Made by tools/make_web.py; change packages/vexture/src/vexture/base/layout.py and run it again.
+export const BLOCK_SIDE = 4;
 export const CELL_BITS = 8;
 export const CONTROL_OFFSET = 16384;
 export const COORDINATE_BITS = 16;
 export const COUNT_SHIFT = 3;
 export const COVERAGE_ONE = 255;
 export const ENCODING_PACKED = "packed";
+export const ENTRY_BITS = 3;
+export const FIRST_BLOCK = 256;
 export const HOLDS_PROGRAM = 4;
 export const IS_MEAN = 2;
 export const KIND_FOCAL = 4;

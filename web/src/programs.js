@@ -21,7 +21,7 @@ import {
 } from '../generated/layout.js';
 import { blended, isBlend, masking } from './blend.js';
 import { REMEDY, VextureError } from './errors.js';
-import { PICTURE_TEXELS, areApart, arePremultiplied, faultOfPicture, pictureColor } from './pictures.js';
+import { PICTURE_TEXELS, faultOfPicture, faultOfPixels, pictureColor } from './pictures.js';
 
 /**
  * @typedef {import('./planar-map.js').Head} Head
@@ -97,8 +97,8 @@ export function checkPrograms(texels, head) {
   }
   need(next === head.programs + head.operations, 'they leave gaps');
   for (let stop = next; stop < next + head.stops; stop++) checkStop(texels, stop);
-  need(areApart(texels, pictures), 'pictures that overlap');
-  need(arePremultiplied(texels, next + head.stops, head.pixels), 'a pixel above its opacity');
+  const fault = faultOfPixels(texels, pictures);
+  need(fault === '', fault);
 }
 
 /**

@@ -106,6 +106,15 @@ texel of a picture or gradient."""
 MOST_PICTURE_SIDE: Final = 1 << 14
 """Most columns or rows of a picture."""
 
+BLOCK_SIDE: Final = 4
+"""Columns and rows of the pixels of a block, in a picture of opacities."""
+
+ENTRY_BITS: Final = 3
+"""Logarithm to base 2 of the number of entries in a texel of an index of blocks."""
+
+FIRST_BLOCK: Final = 256
+"""Entry of the first block that is stored; a smaller one is the value of all pixels of its block."""
+
 HOLDS_PROGRAM: Final = 4
 """Added to the cell byte of a planar map's leaf if one of its paints is a program."""
 

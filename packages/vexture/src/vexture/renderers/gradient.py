@@ -50,7 +50,8 @@ from vexture.renderers.method import (
     RAMP_PARTS,
     SHORTEST_RAMP,
 )
-from vexture.renderers.pixels import VextureLevel, picture_mean
+from vexture.renderers.pixels import first_level, picture_mean
+from vexture.renderers.splines import LINEAR, OPACITY, SPLINE, flat_color, spline_mean
 from vexture.renderers.vectors import Vec3, Vec4, as_float, as_floats, plus, times
 
 NORMAL, COLOR_BURN, HUE = int(Blend.NORMAL), int(Blend.COLOR_BURN), int(Blend.HUE)
@@ -322,10 +323,14 @@ def picture_region(texels: Texels, at: int, region: VextureRegion) -> VextureReg
 def picture(texels: Texels, at: int, record: Texel, region: VextureRegion, share: float) -> Vec4:
     mask = (1 << COORDINATE_BITS) - 1
     size = (max(0 + (record[1] & mask), 1), max(0 + (record[1] >> COORDINATE_BITS), 1))  # of 64 bits
-    is_smooth, pixels = record[3] & 1 != 0, picture_region(texels, at, region)
-    level = VextureLevel(size, 0 + at + record[2])
-    mean = picture_mean(texels, level, is_smooth, pixels.point, pixels.right, pixels.up, share)
-    return times(mean, (record[0] & mask) / PAINT_ONE / COVERAGE_ONE)
+    sampling, pixels = record[3] & 7, picture_region(texels, at, region)
+    level = first_level(size, 0 + at + record[2], sampling >= OPACITY)
+    opacity = (record[0] & mask) / PAINT_ONE / COVERAGE_ONE
+    if sampling < SPLINE:
+        mean = picture_mean(texels, level, sampling == LINEAR, pixels.point, pixels.right, pixels.up, share)
+        return times(mean, opacity)
+    mean = spline_mean(texels, level, pixels.point, pixels.right, pixels.up, share)
+    return times(flat_color(texel(texels, at + 1)[3], mean[0], sampling) if sampling >= OPACITY else mean, opacity)
 
 
 @kernel(allocates=False)

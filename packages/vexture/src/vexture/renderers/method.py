@@ -123,6 +123,19 @@ LEAST_OUTLINE: Final = 2.0**-18
 THINNEST_OUTLINE: Final = 2.0**-8
 """Least width of a footprint in a picture, as a share of its length."""
 
+SLANTED_PART: Final = 0.75
+"""Grid steps. The mean of a spline over a parallelogram is that over upright boxes with the variances of its parts; it
+counts what a part's side spans in both directions, as the root of the product, and that is at most this."""
+
+MOST_SPLINE_BOXES: Final = 4
+"""Most of these boxes; the mean over a footprint that needs more is that of interpolated pixels."""
+
+WIDEST_SPLINE_BOX: Final = 12.0
+"""Grid steps. Widest of these boxes."""
+
+LEAST_SPLINE_BOX: Final = 2.0**-4
+"""Grid steps. Least width: a blurred dot changes by 0.0002 at most, and smaller differences lose their digits."""
+
 PICTURE_LINES: Final = 130
 """More rows or columns than such a footprint has: bounds the work for invalid texels."""
 

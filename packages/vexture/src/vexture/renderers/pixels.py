@@ -4,6 +4,7 @@ import math
 from typing import NamedTuple
 
 from vexture.base.kernels import kernel
+from vexture.base.layout import BLOCK_SIDE, ENTRY_BITS, FIRST_BLOCK
 from vexture.renderers.cells import Texel, Texels, Vec2, Whole2, clamp, texel
 from vexture.renderers.method import (
     GAUSS,
@@ -23,10 +24,15 @@ from vexture.renderers.vectors import Vec4, plus, times
 
 
 class VextureLevel(NamedTuple):
-    """A level of a picture: columns and rows, and the texel of its first pixels."""
+    """A level of a picture: columns and rows, and the texel of its first pixels.
+
+    In a picture of opacities, `first` is the number of its first entry in the index instead, and `blocks` the texel of
+    the first block, which is 0 in other pictures.
+    """
 
     size: Whole2
     first: int
+    blocks: int
 
 
 class VextureOutline(NamedTuple):
@@ -102,14 +108,43 @@ def sum_pixels(pixels: Texel, weights: Vec4) -> Vec4:
 
 
 @kernel(allocates=False)
+def block(texels: Texels, level: VextureLevel, i: int, j: int) -> Texel:
+    place = level.first + j * ((level.size[0] - 1) // BLOCK_SIDE + 1) + i
+    entries = texel(texels, place >> ENTRY_BITS)
+    entry = 0 + (entries[(place >> 1) & 3] >> (16 * (place & 1))) & 0xFFFF  # of 64 bits
+    if entry < FIRST_BLOCK:
+        word = entry * 0x01010101
+        return word, word, word, word
+    found = texel(texels, level.blocks + entry - FIRST_BLOCK)
+    return 0 + found[0], 0 + found[1], 0 + found[2], 0 + found[3]
+
+
+@kernel(allocates=False)
 def pixels_at(texels: Texels, level: VextureLevel, i: int, j: int) -> Texel:
-    return texel(texels, level.first + j * ((level.size[0] + 1) >> 1) + i)
+    if level.blocks != 0:
+        found, shift = block(texels, level, i >> 1, j >> 1), 16 * (i & 1)
+        one, other = (found[0], found[1]) if j & 1 == 0 else (found[2], found[3])
+        one, other = one >> shift, other >> shift
+        return one & 255, (one >> 8) & 255, other & 255, (other >> 8) & 255
+    found = texel(texels, level.first + j * ((level.size[0] + 1) >> 1) + i)
+    return 0 + found[0], 0 + found[1], 0 + found[2], 0 + found[3]  # of 64 bits
 
 
 @kernel(allocates=False)
 def next_level(level: VextureLevel) -> VextureLevel:
-    across, high = (level.size[0] + 1) >> 1, (level.size[1] + 1) >> 1
-    return VextureLevel((across, high), level.first + across * high)
+    side = 2 if level.blocks == 0 else BLOCK_SIDE
+    parts = ((level.size[0] - 1) // side + 1) * ((level.size[1] - 1) // side + 1)
+    return VextureLevel(((level.size[0] + 1) >> 1, (level.size[1] + 1) >> 1), level.first + parts, level.blocks)
+
+
+@kernel(allocates=False)
+def first_level(size: Whole2, first: int, has_blocks: bool) -> VextureLevel:
+    if not has_blocks:
+        return VextureLevel(size, first, 0)
+    last = VextureLevel(size, first << ENTRY_BITS, 1)
+    while last.size[0] + last.size[1] > 2:
+        last = next_level(last)
+    return VextureLevel(size, first << ENTRY_BITS, (last.first >> ENTRY_BITS) + 1)
 
 
 @kernel(allocates=False)
@@ -311,7 +346,7 @@ def picture_mean(
     while not (area <= PICTURE_AREA and far <= PICTURE_FAR) and level.size[0] + level.size[1] > 2:
         level, scale, area = next_level(level), 0.5 * scale, 0.25 * area
     if level.size[0] + level.size[1] == 2:
-        return pixel(texel(texels, level.first)[0])
+        return pixel(pixels_at(texels, level, 0, 0)[0])
     if is_smooth:
         if longer < SHORT_SMOOTH * SHORT_SMOOTH:
             right, up = (

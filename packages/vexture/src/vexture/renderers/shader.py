@@ -17,6 +17,7 @@ from vexture.base import layout
 from vexture.base.errors import ParameterError, VextureError
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Spread
+from vexture.drawing.picture import Sampling
 from vexture.renderers import method
 
 
@@ -74,11 +75,11 @@ CHOSEN: Final = {"FLAT", "GRADIENTS", "LINEAR", "WRAP"}
 MODES: Final = SimpleNamespace(
     **{
         f"{kind.__name__.upper()}_{one.name}": int(one)
-        for kind in (Blend, Mask, Spread)
+        for kind in (Blend, Mask, Sampling, Spread)
         for one in kind.__members__.values()
     }
 )
-"""Numbers of blend modes, of kinds of masks, and of the spread methods of gradients."""
+"""Numbers of blend modes, of kinds of masks, of samplings of pictures, and of the spread methods of gradients."""
 
 PREFIXED: Final = re.compile(r"\bVEXTURE_(\w+)")
 """A number in the shader's files; the prefix avoids clashes with an application's own names."""

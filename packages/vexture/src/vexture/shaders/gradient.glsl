@@ -6,7 +6,7 @@
 // programs may hold pictures.
 #include "tree.glsl"
 #include "blend.glsl"
-#include "picture.glsl"
+#include "spline.glsl"
 
 // In the unit square.
 struct VextureRegion {
@@ -232,12 +232,22 @@ VextureRegion vexture_picture_region(uint at, VextureRegion region) {
 // a pixel.
 vec4 vexture_picture(uint at, uvec4 record, VextureRegion region, float share) {
     ivec2 size = max(ivec2(uvec2(record.y & 0xffffu, record.y >> 16)), 1);
-    bool is_smooth = (record.w & 1u) != 0u;
+    uint sampling = record.w & 7u;
+    bool is_one = sampling >= uint(VEXTURE_SAMPLING_OPACITY);
     VextureRegion pixels = vexture_picture_region(at, region);
-    VextureLevel level = VextureLevel(size, at + record.z);
-    vec4 mean = vexture_picture_mean(level, is_smooth, pixels.point, pixels.right, pixels.up, share);
-    float opacity = float(record.x & 0xffffu) / float(VEXTURE_PAINT_ONE);
-    return opacity / float(VEXTURE_COVERAGE_ONE) * mean;
+    VextureLevel level = vexture_first_level(size, at + record.z, is_one);
+    float opacity = float(record.x & 0xffffu) / float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE);
+    if (sampling < uint(VEXTURE_SAMPLING_SPLINE)) {
+        bool is_smooth = sampling == uint(VEXTURE_SAMPLING_LINEAR);
+        return opacity * vexture_picture_mean(level, is_smooth, pixels.point, pixels.right, pixels.up, share);
+    }
+    vec4 mean = vexture_spline_mean(level, pixels.point, pixels.right, pixels.up, share);
+    if (is_one) {
+        float one = float(VEXTURE_COVERAGE_ONE);
+        vec4 color = vexture_pixel(vexture_texel(at + 1u).w);
+        mean = (sampling == uint(VEXTURE_SAMPLING_INVERSE) ? one - mean.x : mean.x) * vec4(color.rgb / one, 1.0);
+    }
+    return opacity * mean;
 }
 
 #endif

@@ -8,7 +8,8 @@
 //
 // VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
 // needed is left out, because it takes registers.
-// Exports: VextureLevel, vexture_picture_mean.
+// Exports: VextureLevel, vexture_block, vexture_first_level, vexture_pixel, vexture_pixels_at, vexture_sum_pixels,
+// vexture_picture_mean.
 #include "tree.glsl"
 
 #ifndef VEXTURE_GRADIENTS
@@ -17,10 +18,12 @@
 
 #if VEXTURE_GRADIENTS == 2
 
-// A level of a picture: columns and rows, and the texel of its first pixels.
+// A level of a picture: columns and rows, and the texel of its first pixels. In a picture of opacities, whose pixels are in
+// blocks, it has the number of its first entry in the index instead, as if texel 0 began with entry 0.
 struct VextureLevel {
     ivec2 size;
     uint first;
+    uint blocks;  // the texel of the first block; 0 in other pictures
 };
 
 // A parallelogram in a level, in pixels from `origin`: where each of its sides begins, and the side.
@@ -62,15 +65,47 @@ vec4 vexture_sum_pixels(uvec4 pixels, vec4 weights) {
     return below + weights.z * vexture_pixel(pixels.z) + weights.w * vexture_pixel(pixels.w);
 }
 
-// The texel of two columns and two rows of pixels.
+// The opacities of a block, by its column and row: a word for each of its rows.
+uvec4 vexture_block(VextureLevel level, int i, int j) {
+    uint place = level.first + uint(j) * uint((level.size.x - 1) / VEXTURE_BLOCK_SIDE + 1) + uint(i);
+    uvec4 entries = vexture_texel(place >> VEXTURE_ENTRY_BITS);
+    uint entry = (entries[(place >> 1) & 3u] >> (16u * (place & 1u))) & 0xffffu;
+    uvec4 found = uvec4(entry * 0x01010101u);
+    if (entry >= uint(VEXTURE_FIRST_BLOCK)) {
+        found = vexture_texel(level.blocks + entry - uint(VEXTURE_FIRST_BLOCK));
+    }
+    return found;
+}
+
+// The texel of two columns and two rows of pixels; opacities are in the low bytes of its words.
 uvec4 vexture_pixels_at(VextureLevel level, int i, int j) {
+    if (level.blocks != 0u) {
+        uvec4 block = vexture_block(level, i >> 1, j >> 1);
+        uvec2 rows = (j & 1) == 0 ? block.xy : block.zw;
+        uint shift = 16u * uint(i & 1);
+        return uvec4(rows.x >> shift, rows.x >> (shift + 8u), rows.y >> shift, rows.y >> (shift + 8u)) & 255u;
+    }
     return vexture_texel(level.first + uint(j) * uint((level.size.x + 1) >> 1) + uint(i));
 }
 
 // The level with half as many columns and rows.
 VextureLevel vexture_next_level(VextureLevel level) {
-    ivec2 texels = (level.size + 1) >> 1;
-    return VextureLevel(texels, level.first + uint(texels.x) * uint(texels.y));
+    ivec2 parts = (level.size - 1) / (level.blocks == 0u ? 2 : VEXTURE_BLOCK_SIDE) + 1;
+    return VextureLevel((level.size + 1) >> 1, level.first + uint(parts.x) * uint(parts.y), level.blocks);
+}
+
+// The picture itself, from its columns and rows and its first texel.
+VextureLevel vexture_first_level(ivec2 size, uint first, bool has_blocks) {
+    VextureLevel level = VextureLevel(size, first, 0u);
+    if (has_blocks) {
+        level = VextureLevel(size, first << VEXTURE_ENTRY_BITS, 1u);
+        VextureLevel last = level;
+        while (last.size.x + last.size.y > 2) {
+            last = vexture_next_level(last);
+        }
+        level.blocks = (last.first >> VEXTURE_ENTRY_BITS) + 1u;  // the last level has one entry
+    }
+    return level;
 }
 
 // The outline of a parallelogram, widened if it is thin.
@@ -261,7 +296,7 @@ vec4 vexture_picture_mean(VextureLevel level, bool is_smooth, vec2 middle, vec2 
         area *= 0.25;
     }
     if (level.size.x + level.size.y == 2) {
-        return vexture_pixel(vexture_texel(level.first).x);
+        return vexture_pixel(vexture_pixels_at(level, 0, 0).x);
     }
     if (is_smooth) {
         if (longer < VEXTURE_SHORT_SMOOTH * VEXTURE_SHORT_SMOOTH) {

@@ -17,13 +17,16 @@ const VEXTURE_BLEND_PLUS_LIGHTER: i32 = 16;
 const VEXTURE_BLEND_SATURATION: i32 = 13;
 const VEXTURE_BLEND_SCREEN: i32 = 2;
 const VEXTURE_BLEND_SOFT_LIGHT: i32 = 9;
+const VEXTURE_BLOCK_SIDE: i32 = 4;
 const VEXTURE_CLOSE: f32 = 0.02;
 const VEXTURE_CONTROL_OFFSET: i32 = 16384;
 const VEXTURE_COORDINATE_BITS: i32 = 16;
 const VEXTURE_COUNT_SHIFT: i32 = 3;
 const VEXTURE_COVERAGE_ONE: i32 = 255;
 const VEXTURE_DRAWN: f32 = 0.7;
+const VEXTURE_ENTRY_BITS: i32 = 3;
 const VEXTURE_FARTHEST: f32 = 3.0;
+const VEXTURE_FIRST_BLOCK: i32 = 256;
 const VEXTURE_FOLLOWED_QUADS: i32 = 256;
 const VEXTURE_FURTHER: i32 = 2;
 const VEXTURE_GAUSS: f32 = 0.2886751345948129;
@@ -44,6 +47,7 @@ const VEXTURE_LEAST_OUTLINE: f32 = 3.814697265625e-06;
 const VEXTURE_LEAST_RADIUS: f32 = 9.5367431640625e-07;
 const VEXTURE_LEAST_SHARE: f32 = 9.5367431640625e-07;
 const VEXTURE_LEAST_SMOOTH: f32 = 0.015625;
+const VEXTURE_LEAST_SPLINE_BOX: f32 = 0.0625;
 const VEXTURE_LEVEL_BIAS: f32 = 0.00390625;
 const VEXTURE_LONG: f32 = 0.00390625;
 const VEXTURE_LONGEST_RAMP: f32 = 1048576.0;
@@ -60,6 +64,7 @@ const VEXTURE_MOST_PAINTS: i32 = 16777216;
 const VEXTURE_MOST_PARTS: f32 = 8.0;
 const VEXTURE_MOST_PROGRAM: i32 = 64;
 const VEXTURE_MOST_RAMP_PARTS: i32 = 4;
+const VEXTURE_MOST_SPLINE_BOXES: i32 = 4;
 const VEXTURE_MOST_STOPS: i32 = 255;
 const VEXTURE_NEARLY_WHOLE: f32 = 0.9990234375;
 const VEXTURE_NOTHING: f32 = 8.673617379884035e-19;
@@ -81,9 +86,14 @@ const VEXTURE_RAMP_BEND: f32 = 0.5;
 const VEXTURE_RAMP_PARTS: i32 = 6;
 const VEXTURE_REST_BITS: i32 = 4;
 const VEXTURE_ROW_BITS: i32 = 11;
+const VEXTURE_SAMPLING_INVERSE: i32 = 4;
+const VEXTURE_SAMPLING_LINEAR: i32 = 1;
+const VEXTURE_SAMPLING_OPACITY: i32 = 3;
+const VEXTURE_SAMPLING_SPLINE: i32 = 2;
 const VEXTURE_SHORTEST_RAMP: f32 = 2.384185791015625e-07;
 const VEXTURE_SHORT_SMOOTH: f32 = 0.0625;
 const VEXTURE_SHORT_WAY: f32 = 0.0009765625;
+const VEXTURE_SLANTED_PART: f32 = 0.75;
 const VEXTURE_SMALLEST_BOX: f32 = 9.5367431640625e-07;
 const VEXTURE_SMALLEST_PIXEL: f32 = 9.094947017729282e-13;
 const VEXTURE_SMALL_FINEST: i32 = 8;
@@ -96,6 +106,7 @@ const VEXTURE_STOP_COUNT_BITS: i32 = 8;
 const VEXTURE_STRAIGHT: i32 = 1;
 const VEXTURE_THINNEST_OUTLINE: f32 = 0.00390625;
 const VEXTURE_THINNEST_PIXEL: f32 = 0.015625;
+const VEXTURE_WIDEST_SPLINE_BOX: f32 = 12.0;
 const VEXTURE_WINDING_OFFSET: i32 = 4;
 // Reading the packed texture (FORMAT.md, part B): positions, and the descent to the cells.
 // Exports: VexturePlace, VextureCell, VextureSquare, vexture_place, vexture_texel, vexture_top, vexture_descend.
@@ -371,14 +382,17 @@ fn vexture_blended(below: vec4f, above: vec4f, mode: u32) -> vec4f {
 //
 // VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
 // needed is left out, because it takes registers.
-// Exports: VextureLevel, vexture_picture_mean.
+// Exports: VextureLevel, vexture_block, vexture_first_level, vexture_pixel, vexture_pixels_at, vexture_sum_pixels,
+// vexture_picture_mean.
 
 #if VEXTURE_GRADIENTS == 2
 
-// A level of a picture: columns and rows, and the texel of its first pixels.
+// A level of a picture: columns and rows, and the texel of its first pixels. In a picture of opacities, whose pixels are in
+// blocks, it has the number of its first entry in the index instead, as if texel 0 began with entry 0.
 struct VextureLevel {
     size: vec2i,
     first: u32,
+    blocks: u32,  // the texel of the first block; 0 in other pictures
 }
 
 // A parallelogram in a level, in pixels from `origin`: where each of its sides begins, and the side.
@@ -420,15 +434,47 @@ fn vexture_sum_pixels(pixels: vec4u, weights: vec4f) -> vec4f {
     return below + weights.z * vexture_pixel(pixels.z) + weights.w * vexture_pixel(pixels.w);
 }
 
-// The texel of two columns and two rows of pixels.
+// The opacities of a block, by its column and row: a word for each of its rows.
+fn vexture_block(vextureTexels: texture_2d<u32>, level: VextureLevel, i: i32, j: i32) -> vec4u {
+    let place: u32 = level.first + u32(j) * u32((level.size.x - 1) / VEXTURE_BLOCK_SIDE + 1) + u32(i);
+    let entries: vec4u = vexture_texel(vextureTexels, place >> u32(VEXTURE_ENTRY_BITS));
+    let entry: u32 = (entries[(place >> 1u) & 3u] >> (16u * (place & 1u))) & 0xffffu;
+    var found: vec4u = vec4u(entry * 0x01010101u);
+    if (entry >= u32(VEXTURE_FIRST_BLOCK)) {
+        found = vexture_texel(vextureTexels, level.blocks + entry - u32(VEXTURE_FIRST_BLOCK));
+    }
+    return found;
+}
+
+// The texel of two columns and two rows of pixels; opacities are in the low bytes of its words.
 fn vexture_pixels_at(vextureTexels: texture_2d<u32>, level: VextureLevel, i: i32, j: i32) -> vec4u {
+    if (level.blocks != 0u) {
+        let block: vec4u = vexture_block(vextureTexels, level, i >> 1u, j >> 1u);
+        let rows: vec2u = select(block.zw, block.xy, (j & 1) == 0);
+        let shift: u32 = 16u * u32(i & 1);
+        return vec4u(rows.x >> shift, rows.x >> (shift + 8u), rows.y >> shift, rows.y >> (shift + 8u)) & vec4u(255u);
+    }
     return vexture_texel(vextureTexels, level.first + u32(j) * u32((level.size.x + 1) >> 1u) + u32(i));
 }
 
 // The level with half as many columns and rows.
 fn vexture_next_level(level: VextureLevel) -> VextureLevel {
-    let texels: vec2i = (level.size + 1) >> vec2u(1u);
-    return VextureLevel(texels, level.first + u32(texels.x) * u32(texels.y));
+    let parts: vec2i = (level.size - 1) / select(VEXTURE_BLOCK_SIDE, 2, level.blocks == 0u) + 1;
+    return VextureLevel((level.size + 1) >> vec2u(1u), level.first + u32(parts.x) * u32(parts.y), level.blocks);
+}
+
+// The picture itself, from its columns and rows and its first texel.
+fn vexture_first_level(size: vec2i, first: u32, has_blocks: bool) -> VextureLevel {
+    var level: VextureLevel = VextureLevel(size, first, 0u);
+    if (has_blocks) {
+        level = VextureLevel(size, first << u32(VEXTURE_ENTRY_BITS), 1u);
+        var last: VextureLevel = level;
+        while (last.size.x + last.size.y > 2) {
+            last = vexture_next_level(last);
+        }
+        level.blocks = (last.first >> u32(VEXTURE_ENTRY_BITS)) + 1u;  // the last level has one entry
+    }
+    return level;
 }
 
 // The outline of a parallelogram, widened if it is thin.
@@ -615,7 +661,7 @@ fn vexture_picture_mean(
         area *= 0.25;
     }
     if (level.size.x + level.size.y == 2) {
-        return vexture_pixel(vexture_texel(vextureTexels, level.first).x);
+        return vexture_pixel(vexture_pixels_at(vextureTexels, level, 0, 0).x);
     }
     if (is_smooth) {
         if (longer < VEXTURE_SHORT_SMOOTH * VEXTURE_SHORT_SMOOTH) {
@@ -626,6 +672,123 @@ fn vexture_picture_mean(
         return vexture_smooth_mean(vextureTexels, level, vexture_outline(middle, right, up));
     }
     return vexture_area_mean(vextureTexels, level, vexture_outline(scale * middle, scale * right, scale * up));
+}
+#endif
+
+// Pictures whose pixels are the coefficients of cubic B-splines (FORMAT.md, D.6): the mean of a spline over a parallelogram.
+//
+// Over an upright box it is exact: the weight of a column or row is a difference of integrals. A small parallelogram is
+// divided into few parts, each replaced by the box with the same variances. In a larger one, the pixels are interpolated
+// linearly, and it is widened by the variance that a spline has beyond that: 1/3 - 1/6 in each direction.
+//
+// VEXTURE_GRADIENTS is 2 if programs hold pictures.
+// Exports: vexture_spline_mean.
+
+#if VEXTURE_GRADIENTS == 2
+
+// Integral, from the left, of the sum of the B-splines of a column and of all to its right, for places from its left line.
+fn vexture_spline_beyond(place: vec4f) -> vec4f {
+    var wide: vec4f = max(1.5 - abs(place), vec4f(0.0));
+    var narrow: vec4f = max(0.5 - abs(place), vec4f(0.0));
+    wide *= wide;
+    narrow *= narrow;
+    return max(place, vec4f(0.0)) + (wide * wide - 3.0 * narrow * narrow) / 24.0;
+}
+
+// Shares that the columns or rows of `count` from each of four on have in the mean between two places from `origin`. Beyond
+// the border all is that of the one at the border.
+fn vexture_shares_beyond(first: i32, count: i32, origin: f32, between: vec2f) -> vec4f {
+    let number: vec4f = f32(first) + vec4f(0.0, 1.0, 2.0, 3.0);
+    let line: vec4f = number - origin;
+    var share: vec4f = vexture_spline_beyond(between.y - line) - vexture_spline_beyond(between.x - line);
+    share = max(share / (between.y - between.x), clamp(1.0 - number, vec4f(0.0), vec4f(1.0)));
+    return share * clamp(f32(count) - number, vec4f(0.0), vec4f(1.0));
+}
+
+// Sum of the pixels of four columns and rows, which begin at a multiple of four, with the product of these weights.
+fn vexture_weighted_block(
+    vextureTexels: texture_2d<u32>, level: VextureLevel, i: i32, j: i32, columns: vec4f, rows: vec4f,
+) -> vec4f {
+    var sum: vec4f = vec4f(0.0);
+    if (level.blocks != 0u) {
+        let block: vec4u = vexture_block(vextureTexels, level, i, j);
+        for (var k: i32 = 0; k < 4; k++) {
+            sum.x += rows[k] * dot(columns, vexture_pixel(block[k]));
+        }
+        return sum;
+    }
+    for (var k: i32 = 0; k < 4; k++) {
+        let across: vec2f = select(columns.zw, columns.xy, (k & 1) == 0);
+        let down: vec2f = select(rows.zw, rows.xy, k < 2);
+        let weights: vec4f = vec4f(down.x * across, down.y * across);
+        if (any(weights != vec4f(0.0))) {
+            sum += vexture_sum_pixels(vexture_pixels_at(vextureTexels, level, 2 * i + (k & 1), 2 * j + (k >> 1u)),
+                weights);
+        }
+    }
+    return sum;
+}
+
+// Mean over an upright box, given by its middle and its sides.
+fn vexture_box_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, middle_given: vec2f, sides: vec2f) -> vec4f {
+    var middle = middle_given;
+    middle = clamp(middle, vec2f(-VEXTURE_WIDEST_SPLINE_BOX), vec2f(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
+    let origin: vec2f = floor(middle);
+    let low: vec2f = middle - origin - 0.5 * sides;
+    let high: vec2f = low + sides;
+    let first: vec2i = clamp(vec2i(origin + floor(low - 1.5)), vec2i(0), level.size - 1) / VEXTURE_BLOCK_SIDE;
+    var last: vec2i = clamp(vec2i(origin + floor(high + 1.5)), vec2i(0), level.size - 1) / VEXTURE_BLOCK_SIDE;
+    last = min(last, first + 4);  // more than the widest box needs: bounds the work for invalid numbers
+    var sum: vec4f = vec4f(0.0);
+    var above: vec4f = vexture_shares_beyond(4 * first.y, level.size.y, origin.y, vec2f(low.y, high.y));
+    for (var j: i32 = first.y; j <= last.y; j++) {
+        let row: vec4f = above;
+        above = vexture_shares_beyond(4 * j + 4, level.size.y, origin.y, vec2f(low.y, high.y));
+        var right: vec4f = vexture_shares_beyond(4 * first.x, level.size.x, origin.x, vec2f(low.x, high.x));
+        for (var i: i32 = first.x; i <= last.x; i++) {
+            var column: vec4f = right;
+            right = vexture_shares_beyond(4 * i + 4, level.size.x, origin.x, vec2f(low.x, high.x));
+            column -= vec4f(column.yzw, right.x);
+            sum += vexture_weighted_block(vextureTexels, level, i, j, column, row - vec4f(row.yzw, above.x));
+        }
+    }
+    return sum;
+}
+
+// The two sides of a parallelogram, in columns and rows, with the variances of another one and 1/6 more in each direction.
+fn vexture_widened(right: vec2f, up: vec2f) -> vec4f {
+    let longer: f32 = max(dot(right, right), dot(up, up));
+    let area: f32 = max(abs(right.x * up.y - right.y * up.x), max(VEXTURE_THINNEST_PIXEL * longer, VEXTURE_NOTHING));
+    let inverse: f32 = 2.0 / (area * area);
+    let along: f32 = 1.0 + inverse * dot(up, up);
+    let beside: f32 = 1.0 + inverse * dot(right, right);
+    let both: f32 = -inverse * dot(right, up);
+    let root: f32 = sqrt(max(along * beside - both * both, 0.0));
+    let sides: vec4f = vec4f((along + root) * right + both * up, both * right + (beside + root) * up);
+    return sides / sqrt(along + beside + 2.0 * root);
+}
+
+// Mean of a spline, 0..255, over a parallelogram; parameters as of vexture_picture_mean.
+fn vexture_spline_mean(
+    vextureTexels: texture_2d<u32>, level: VextureLevel, middle: vec2f, right: vec2f, up: vec2f, share: f32,
+) -> vec4f {
+    let slants: vec2f = sqrt(abs(vec2f(right.x * right.y, up.x * up.y)));
+    let parts: vec2f = max(ceil(slants / VEXTURE_SLANTED_PART), vec2f(1.0));
+    var sides: vec2f = sqrt(right * right / (parts.x * parts.x) + up * up / (parts.y * parts.y));
+    let is_small: bool = parts.x * parts.y <= f32(VEXTURE_MOST_SPLINE_BOXES);
+    if (is_small && max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
+        sides = max(sides, vec2f(VEXTURE_LEAST_SPLINE_BOX));
+        let across: i32 = i32(parts.x);
+        let number: i32 = across * i32(parts.y);
+        var sum: vec4f = vec4f(0.0);
+        for (var k: i32 = 0; k < number; k++) {
+            let place: vec2f = (vec2f(vec2i(k % across, k / across)) + 0.5) / parts - 0.5;
+            sum += vexture_box_mean(vextureTexels, level, middle + place.x * right + place.y * up, sides);
+        }
+        return sum / f32(number);
+    }
+    let widened: vec4f = vexture_widened(right, up);
+    return vexture_picture_mean(vextureTexels, level, true, middle, widened.xy, widened.zw, share);
 }
 #endif
 
@@ -873,13 +1036,23 @@ fn vexture_picture_region(vextureTexels: texture_2d<u32>, at: u32, region: Vextu
 // a pixel.
 fn vexture_picture(vextureTexels: texture_2d<u32>, at: u32, record: vec4u, region: VextureRegion, share: f32) -> vec4f {
     let size: vec2i = max(vec2i(vec2u(record.y & 0xffffu, record.y >> 16u)), vec2i(1));
-    let is_smooth: bool = (record.w & 1u) != 0u;
+    let sampling: u32 = record.w & 7u;
+    let is_one: bool = sampling >= u32(VEXTURE_SAMPLING_OPACITY);
     let pixels: VextureRegion = vexture_picture_region(vextureTexels, at, region);
-    let level: VextureLevel = VextureLevel(size, at + record.z);
-    let mean: vec4f = vexture_picture_mean(vextureTexels, level, is_smooth, pixels.point, pixels.right, pixels.up,
-        share);
-    let opacity: f32 = f32(record.x & 0xffffu) / f32(VEXTURE_PAINT_ONE);
-    return opacity / f32(VEXTURE_COVERAGE_ONE) * mean;
+    let level: VextureLevel = vexture_first_level(size, at + record.z, is_one);
+    let opacity: f32 = f32(record.x & 0xffffu) / f32(VEXTURE_PAINT_ONE) / f32(VEXTURE_COVERAGE_ONE);
+    if (sampling < u32(VEXTURE_SAMPLING_SPLINE)) {
+        let is_smooth: bool = sampling == u32(VEXTURE_SAMPLING_LINEAR);
+        return opacity
+            * vexture_picture_mean(vextureTexels, level, is_smooth, pixels.point, pixels.right, pixels.up, share);
+    }
+    var mean: vec4f = vexture_spline_mean(vextureTexels, level, pixels.point, pixels.right, pixels.up, share);
+    if (is_one) {
+        let one: f32 = f32(VEXTURE_COVERAGE_ONE);
+        let color: vec4f = vexture_pixel(vexture_texel(vextureTexels, at + 1u).w);
+        mean = select(mean.x, one - mean.x, sampling == u32(VEXTURE_SAMPLING_INVERSE)) * vec4f(color.rgb / one, 1.0);
+    }
+    return opacity * mean;
 }
 #endif
 
