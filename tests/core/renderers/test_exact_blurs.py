@@ -248,6 +248,28 @@ def test_faces_cut_a_blur_and_groups_blend_with_it() -> None:
     assert (image[above] == (0.0, 1.0, 0.0, 1.0)).all()
 
 
+def test_a_gradient_and_other_blurs_below_a_blur() -> None:
+    """With as many points as a gradient needs, with fixed ones, and with those of blend modes: the same colours."""
+    ramp = Gradient(((40.0, 0.0, 0.0), (0.0, 1.0, 0.0)), (Stop(0.0, ORANGE), Stop(1.0, (0.0, 0.0, 1.0))))
+    flat = replace(ramp, stops=(Stop(0.0, (0.2, 0.4, 0.6)),))
+    blurs = [blurred(Drawing((rectangle((0.2, 0.2, x, 0.7)),)), (0.03, 0.02), Paint(ORANGE, 0.6)) for x in (0.5, 0.8)]
+
+    def rendered(*below: Path) -> NDArray[np.float32]:
+        return render_exact_colours(Drawing((*below, *blurs), groups=(Group(blend=Blend.LIGHTEN),)), 12)
+
+    one = rendered(rectangle(SQUARE, Paint((0.2, 0.4, 0.6))))
+    assert worst(one, rendered(rectangle(SQUARE, Paint.from_gradient(flat)))) < 0.02
+    lighter = rectangle(SQUARE, Paint((0.2, 0.4, 0.6)), group=0)
+    assert worst(one, rendered(rectangle(SQUARE), lighter)) < 0.02
+    mixed = rendered(rectangle(SQUARE, Paint.from_gradient(replace(ramp, to_ramp=((1.0, 0.0, 0.0), SAME[1])))))
+    left = [1.0 - 0.6 * box_means((0.2, 0.2, x, 0.7), (0.03, 0.02), 240) for x in (0.5, 0.8)]
+    through = (left[0] * left[1])[..., None]
+    t = ((np.arange(240) + 0.5) / 240)[:, None]
+    colour = (1.0 - t) * ORANGE + t * (0.0, 0.0, 1.0)
+    expected = (colour * through + (1.0 - through) * ORANGE).reshape(12, 20, 12, 20, 3).mean(axis=(1, 3))
+    assert worst(mixed[..., :3], expected) < 0.05
+
+
 def test_colours_at_the_window_continue() -> None:
     source = Drawing((rectangle((0.0, 0.0, 0.5, 1.0)),))
     drawing = Drawing((blurred(source, (0.1, 0.1), window=(0.45, 0.4, 0.6, 0.6)),))

@@ -56,6 +56,7 @@ class PathStack(NamedTuple):
     samples: Samples
     splines: Splines
     is_linear: bool  # are colours of faces in linear light
+    has_corners: bool  # may blend modes bend the colour of smooth paints sharply
 
     @classmethod
     def of_drawing(
@@ -93,6 +94,7 @@ class PathStack(NamedTuple):
             Samples.of_pictures(pictures, view),
             Splines.of_paints(splines, view),
             is_linear,
+            any(group.blend != Blend.NORMAL for group in groups),
         )
 
 

@@ -46,8 +46,8 @@ TAIL: Final = 5.5
 FIRST: Final = 0.5
 """Variance of the first step, in squares of the distance of nodes: finer detail than nodes resolve is gone by then."""
 
-REACH: Final = 2.0
-"""Deviations over which three points of quadrature are off by at most 0.01/255."""
+REACH: Final = 1.5
+"""Deviations over which three points of quadrature are off by at most 0.005/255, as two are over a third of it."""
 
 POLE: Final = sqrt(3.0) - 2.0
 """Coefficients of a spline are values at its nodes, each weighted by the distance's power of this (Unser 1999)."""
@@ -77,6 +77,7 @@ def blurred_spline(blur: Blur, view: Values, size: tuple[int, int], render: Rend
         grid,
         (1.0, 1.0, 1.0 + (right - left) / across, 1.0 + (high - low) / up),
         (REACH / d, REACH / d),
+        is_blur=True,
     )
 
 

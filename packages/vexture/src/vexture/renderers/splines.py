@@ -16,7 +16,7 @@ from vexture.drawing.affine import Affine
 from vexture.drawing.picture import Picture, Sampling
 from vexture.renderers.ramps import Place, add_cut, ramp_point
 
-MOST_PARTS: Final = 256
+MOST_PARTS: Final = 256.0
 """Most equal parts of a line, or of a cell from top to bottom."""
 
 MARGIN: Final = 2
@@ -38,11 +38,14 @@ class Spline:
     window : (float, float, float, float)
         Least column and row, greatest column and row; beyond, the colours at its border continue.
     reach : (float, float)
-        Columns and rows over which three points of quadrature are enough.
+        Columns and rows over which three points of quadrature are enough, and two over a third of it. For a picture,
+        they are only where refinement begins.
     paint : (float, float, float, float)
         The premultiplied flat colour of an opacity; for colours, the last component is a factor.
     is_inverted : bool
         True if the opacity is 1 minus that of the coefficients.
+    is_blur : bool
+        True if the spline is as smooth as `reach` tells.
     """
 
     to_grid: Affine
@@ -51,6 +54,7 @@ class Spline:
     reach: tuple[float, float]
     paint: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 1.0)
     is_inverted: bool = False
+    is_blur: bool = False
 
     @classmethod
     def of_picture(cls, picture: Picture) -> "Spline":
@@ -80,10 +84,11 @@ class Splines(NamedTuple):
     """The smooth paints of a drawing."""
 
     maps: NDArray[np.float64]  # (n, 3, 3): from homogeneous pixel coordinates of the image to columns and rows
-    windows: NDArray[np.float64]  # (n, 4); this and the next two are members of `Spline`
+    windows: NDArray[np.float64]  # (n, 4); this and the next four are members of `Spline`
     reaches: NDArray[np.float64]  # (n, 2)
     paints: NDArray[np.float64]  # (n, 4)
     inverted: NDArray[np.bool_]  # (n,)
+    blurs: NDArray[np.bool_]  # (n,)
     columns: NDArray[np.int64]  # (n,)
     components: NDArray[np.int64]  # (n,): 1 or 4
     starts: NDArray[np.int64]  # (n,): place of the first coefficient
@@ -105,6 +110,7 @@ class Splines(NamedTuple):
             np.array([paint.reach for paint in paints], np.float64).reshape(-1, 2),
             np.array([paint.paint for paint in paints], np.float64).reshape(-1, 4),
             np.array([paint.is_inverted for paint in paints], np.bool_),
+            np.array([paint.is_blur for paint in paints], np.bool_),
             np.array([paint.grid.shape[1] for paint in paints], np.int64),
             np.array([paint.grid.shape[2] for paint in paints], np.int64),
             np.array([places[id(paint.grid)] for paint in paints], np.int64),
@@ -158,15 +164,15 @@ def spline_weights(t: float) -> tuple[float, float, float, float]:
 
 
 @kernel(allocates=False)
-def parts_needed(splines: Splines, k: int, start: Place, end: Place) -> int:
-    """Return the number of equal parts of a line in the image that quadrature needs."""
+def extent(splines: Splines, k: int, start: Place, end: Place) -> float:
+    """Return the larger part of a line in the image along columns or rows, in reaches of a spline."""
     p, q = ramp_point(splines.maps[k], start[0], start[1]), ramp_point(splines.maps[k], end[0], end[1])
-    needed = 1.0
+    found = 0.0
     for axis in range(2):
         low, high = splines.windows[k, axis], splines.windows[k, axis + 2]
         one, other = min(max(p[axis] / p[2], low), high), min(max(q[axis] / q[2], low), high)
-        needed = max(needed, abs(other - one) / splines.reaches[k, axis])
-    return int(min(np.ceil(needed), MOST_PARTS))
+        found = max(found, abs(other - one) / splines.reaches[k, axis])
+    return found
 
 
 @kernel(allocates=False)
@@ -186,8 +192,9 @@ def cut_borders(
 
 
 @kernel(allocates=False)
-def cut_evenly(parts: int, span: Place, cuts: NDArray[np.float64], count: int) -> int:
-    """Cut a part `span` of a line into a number of equal parts; return the new count of cuts."""
+def cut_evenly(length: float, span: Place, cuts: NDArray[np.float64], count: int) -> int:
+    """Cut a part `span` of a line into equal parts, for its length in reaches; return the new count of cuts."""
+    parts = int(np.ceil(min(length, MOST_PARTS)))
     for part in range(1, parts):
         count = add_cut(span[0] + part / parts * (span[1] - span[0]), cuts, count)
     return count
