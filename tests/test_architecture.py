@@ -78,11 +78,11 @@ ABOVE_ALL = {"__init__", "__main__", "cli", "vexture_geo", "vexture_geo.cli", "v
 GEO_TYPES = {"__init__", "notebook/show.py"}
 """Modules of vexture that name types of vexture-geo, for checkers only or by the name of a module."""
 
-TRUTH_MODULES = ("blend", "exact", "faces", "flatten", "ramps", "regions", "samples", "view")
+TRUTH_MODULES = (*("blend", "exact", "faces", "flatten", "gaussians", "ramps", "regions", "samples", "smooth", "view"),)
 THE_TRUTH = {f"renderers/{name}.py" for name in TRUTH_MODULES}
 TRUTH_MAY_IMPORT = (
     {f"base.{name}" for name in ("deadline", "errors", "kernels", "machine_code", "tolerance")}
-    | {f"drawing.{name}" for name in ("drawing", "group", "paint", "picture")}
+    | {f"drawing.{name}" for name in ("affine", "blur", "drawing", "group", "paint", "picture")}
     | {module.removesuffix(".py").replace("/", ".") for module in THE_TRUTH}
 )
 """The exact renderer judges the tree, so it shares nothing with it."""

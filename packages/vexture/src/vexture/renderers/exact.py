@@ -4,7 +4,7 @@ It deliberately uses neither the quad-tree, its boundary code nor a fill library
 from top to bottom over the drawing's chords (`vexture.renderers.flatten`), slab by slab (`vexture.renderers.exact`).
 The winding number of each path, counted from left to right, identifies the chords that bound the union of the paths, or
 at which the colour changes (`vexture.renderers.faces`). Their exact trapezoids are added to the pixels of the row, and
-so are the integrals over faces with gradients and pictures (`vexture.renderers.regions`).
+so are the integrals over faces with gradients, pictures and blurs (`vexture.renderers.regions`).
 """
 
 from collections.abc import Iterator
@@ -165,8 +165,8 @@ def render_exact_colours(
     """Exact colour of each pixel's square, in sRGB: the sum over the faces of a face's colour times its area there.
 
     A *face* is the set of points that lie inside the same paths. Its colour is composited as SVG and CSS define, with
-    the drawing's groups: once for a flat face; where gradients or pictures are visible, the colour at each point is
-    integrated. So nothing shines through where two paths touch. The result is (height, width, 4), premultiplied, top
+    the drawing's groups: once for a flat face; where gradients, pictures or blurs are visible, the colour at each point
+    is integrated. So nothing shines through where two paths touch. The result is (height, width, 4), premultiplied, top
     row first; all else is as in `render_exact`.
 
     The error of a component is at most 2/3 of the flatness times the length of the outlines in the pixel, each times
@@ -176,13 +176,22 @@ def render_exact_colours(
     pixel, or 1,024 corners of ramps on a line in one, are not resolved. Integrals over pictures are exact, up to
     0.01/255 where more than 512 corners of a picture's pixels lie in one pixel of the image, not parallel to it; a
     `LimitError` is raised if more than 1,024 of its columns and rows meet a line in one, or 500 its borders.
+    Splines are integrated like gradients, up to 256 coefficients in a pixel; so are blurs, which are true Gaussians of
+    their sources, up to 0.1/255 (see `vexture.renderers.gaussians`).
     """
-    width, height = size_of(size)
+    return _integrate_colours(drawing, size_of(size), view, flatness=flatness)
+
+
+def _integrate_colours(
+    drawing: Drawing, size: tuple[int, int], view: ViewLike, is_linear: bool = False, flatness: float = FLATNESS
+) -> NDArray[np.float32]:
+    """Return the colours of an image, like `render_exact_colours`; those of faces may be in linear light."""
+    width, height = size
     image = np.zeros((height, width, 4), np.float32)
-    chords = chords_of(drawing, (width, height), view, flatness)
+    chords = chords_of(drawing, size, view, flatness)
     if len(chords.lines):
-        stack = PathStack.of_drawing(drawing, view_matrix(view, (width, height)))
-        varies = bool(stack.ramps.stops.size or stack.samples.pixels.size)
+        stack = PathStack.of_drawing(drawing, view_matrix(view, size), size, _integrate_colours, is_linear)
+        varies = bool((stack.shades >= 0).any())
         regions = Regions.between(chords.lines if varies else chords.lines[:0], width)
         sweep, faces = Sweep.over(chords), SweepFaces.at_start(stack)
         for rows in bands(height, drawing.name):

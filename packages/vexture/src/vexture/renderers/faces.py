@@ -2,8 +2,8 @@
 
 A *face* is the set of points that lie inside the same paths. Its colour is composited from the paints of these paths as
 SVG and CSS define. Each path is drawn over the lower paths of its group. A group is composited by itself on a
-transparent background, then laid on the content below it. A face of flat paints has one colour; if a gradient or a
-picture is visible, the colour varies from point to point.
+transparent background, then laid on the content below it. A face of flat paints has one colour; if a gradient, a
+picture or a blur is visible, the colour varies from point to point.
 
 A sweep meets the same faces in slab after slab. Each path has a random number of 64 bits. The exclusive or of the
 numbers of the paths inside names the face, and recent faces are cached by their names.
@@ -17,9 +17,13 @@ from numpy.typing import NDArray
 from vexture.base.kernels import kernel
 from vexture.drawing.drawing import Drawing, FillRule
 from vexture.drawing.group import Blend, Mask
+from vexture.drawing.paint import Paint
+from vexture.drawing.picture import Sampling
 from vexture.renderers.blend import lay
+from vexture.renderers.gaussians import Render, blurred_spline
 from vexture.renderers.ramps import Ramps, shade
 from vexture.renderers.samples import Samples, sample
+from vexture.renderers.smooth import Spline, Splines, shade_spline
 
 KEPT: Final = 2**16
 """Size of the cache of faces, a power of two; 3.7 MB."""
@@ -39,7 +43,7 @@ class PathStack(NamedTuple):
 
     evenodd: NDArray[np.bool_]  # (paths,)
     paints: NDArray[np.float64]  # (paths, 4): premultiplied
-    shades: NDArray[np.int64]  # (paths,): the ramp of each, after all ramps the picture, or -1
+    shades: NDArray[np.int64]  # (paths,): the ramp of each, after all ramps the picture, then the spline, or -1
     covering: NDArray[np.bool_]  # (paths,): does it hide all below
     groups: NDArray[np.int64]  # (paths,): `Path.group`
     names: NDArray[np.int64]  # (paths,): random numbers
@@ -50,21 +54,32 @@ class PathStack(NamedTuple):
     masked: NDArray[np.int64]  # (groups,): number of masks of a group
     ramps: Ramps
     samples: Samples
+    splines: Splines
+    is_linear: bool  # are colours of faces in linear light
+    has_corners: bool  # may blend modes bend the colour of smooth paints sharply
 
     @classmethod
-    def of_drawing(cls, drawing: Drawing, view: NDArray[np.float64]) -> "PathStack":
-        """Stack of a drawing in an image; `view` is the (3, 3) matrix from pixel coordinates to the unit square."""
+    def of_drawing(
+        cls, drawing: Drawing, view: NDArray[np.float64], size: tuple[int, int], render: Render, is_linear: bool
+    ) -> "PathStack":
+        """Stack of a drawing in an image; `view` is the (3, 3) matrix from pixel coordinates to the unit square.
+
+        `render` is the exact renderer, for the sources of blurs.
+        """
         paths, groups, bits = drawing.paths, drawing.groups, np.iinfo(np.int64)
         paints = np.array([(*path.paint.color, 1.0) for path in paths], np.float64)
+        kinds = np.array([kind_of(path.paint) for path in paths])
         gradients = [path.paint.gradient for path in paths if path.paint.gradient is not None]
-        pictures = [path.paint.picture for path in paths if path.paint.picture is not None]
-        shaded = np.array([path.paint.gradient is not None for path in paths])
-        pictured = np.array([path.paint.picture is not None for path in paths])
-        shades = np.where(pictured, len(gradients) + np.cumsum(pictured) - 1, -1)
+        pictures = [path.paint.picture for path in paths if path.paint.picture is not None and is_sampled(path.paint)]
+        splines = splines_of([path.paint for path in paths], view, size, render)
+        shades, before = np.full(len(paths), -1), 0
+        for kind, count in enumerate((len(gradients), len(pictures), len(splines))):
+            shades[kinds == kind] = before + np.arange(count)
+            before += count
         return cls(
             np.array([path.fill_rule == FillRule.EVENODD for path in paths]),
             paints * np.array([[path.paint.opacity] for path in paths]),
-            np.where(shaded, np.cumsum(shaded) - 1, shades),
+            shades,
             np.array([path.paint.is_opaque and path.group == -1 for path in paths]),
             np.array([path.group for path in paths], np.int64),
             np.random.default_rng(0).integers(bits.min, bits.max, len(paths), endpoint=True),
@@ -77,7 +92,37 @@ class PathStack(NamedTuple):
             ),
             Ramps.of_gradients(gradients, view),
             Samples.of_pictures(pictures, view),
+            Splines.of_paints(splines, view),
+            is_linear,
+            any(group.blend != Blend.NORMAL for group in groups),
         )
+
+
+def is_sampled(paint: Paint) -> bool:
+    """Return whether a paint is a picture with seams between its pixels."""
+    return paint.picture is not None and paint.picture.sampling <= Sampling.LINEAR
+
+
+def kind_of(paint: Paint) -> int:
+    """Return the kind of a paint: 0 for a ramp, 1 for a picture, 2 for a spline; -1 for a flat colour."""
+    if paint.gradient is not None:
+        return 0
+    return -1 if not paint.is_varied else 1 if is_sampled(paint) else 2
+
+
+def splines_of(paints: list[Paint], view: NDArray[np.float64], size: tuple[int, int], render: Render) -> list[Spline]:
+    """Return the splines of some paints; blurs of one source in one place share a grid."""
+    found, blurs = list[Spline](), dict[tuple[object, ...], Spline]()
+    for paint in paints:
+        blur = paint.blur
+        if blur is not None:
+            key = id(blur.source), blur.to_source, blur.deviations, blur.window, blur.has_colors, blur.is_linear
+            if key not in blurs:
+                blurs[key] = blurred_spline(blur, view, size, render)
+            found.append(blurs[key].with_paint(paint.color, paint.opacity, blur.is_inverted))
+        elif paint.picture is not None and not is_sampled(paint):
+            found.append(Spline.of_picture(paint.picture))
+    return found
 
 
 class SweepFaces(NamedTuple):
@@ -187,16 +232,30 @@ def composite(
     change_group(group, -1, stack, faces)
     for channel in range(4):
         colour[channel] = levels[0, channel]
+    if stack.is_linear:
+        decode(colour)
+
+
+@kernel(allocates=False)
+def decode(colour: NDArray[np.float64]) -> None:
+    """Convert a premultiplied colour from sRGB to linear light, in place."""
+    opacity = colour[3]
+    for channel in range(3):
+        encoded = min(colour[channel] / opacity, 1.0) if opacity > 0.0 else 0.0
+        linear = encoded / 12.92 if encoded <= 0.04045 else ((encoded + 0.055) / 1.055) ** 2.4
+        colour[channel] = opacity * linear
 
 
 @kernel(allocates=False)
 def shade_point(stack: PathStack, k: int, x: float, y: float, colour: NDArray[np.float64]) -> None:
-    """Write the premultiplied colour of a ramp or a picture, numbered as in `PathStack.shades`, at a point."""
-    ramps = len(stack.ramps.radial)
+    """Write the premultiplied colour of a varying paint, numbered as in `PathStack.shades`, at a point."""
+    ramps, samples = len(stack.ramps.radial), len(stack.samples.starts)
     if k < ramps:
         shade(stack.ramps, k, x, y, colour)
-    else:
+    elif k < ramps + samples:
         sample(stack.samples, k - ramps, x, y, colour)
+    else:
+        shade_spline(stack.splines, k - ramps - samples, x, y, colour)
 
 
 @kernel(allocates=False)

@@ -1,4 +1,4 @@
-"""Faces with gradients or pictures between two chords, merged from slab to slab, for the exact renderer.
+"""Faces with gradients, pictures or blurs between two chords, merged from slab to slab, for the exact renderer.
 
 A slab ends wherever any chord of its row does, so a row has hundreds of slabs. A *region* continues from slab to slab
 while the same chords bound the same face. Likewise, a column of the image that a face fills continues while regions of
@@ -6,7 +6,8 @@ the face fill it. So a few large cells are integrated instead of very many thin 
 
 The colour of such a face varies within a pixel. Its integral over the part of a region in one column, a *cell*, is an
 integral over y of integrals over x. Each line is cut where a ramp has a corner or a jump (`vexture.renderers.ramps`),
-or a picture a seam (`vexture.renderers.samples`). The cell is cut where the cuts of its lines begin, end or turn.
+or a picture a seam (`vexture.renderers.samples`), and into parts that are short compared with the detail of a spline or
+a blur (`vexture.renderers.smooth`). The cell is cut where the cuts of its lines begin, end or turn.
 Between cuts the colour is smooth, except for corners that blend modes make. There, Gauss-Legendre quadrature with one,
 two and three points is refined until more points change nothing.
 """
@@ -21,6 +22,7 @@ from vexture.base.tolerance import STEADY
 from vexture.renderers.faces import FLAT, MEMBERS, PathStack, SweepFaces, composite
 from vexture.renderers.ramps import MOST_CUTS, Place, add_cut, cut_line, cut_turns
 from vexture.renderers.samples import cut_corners, cut_seams
+from vexture.renderers.smooth import MOST_PARTS, cut_borders, cut_evenly, extent
 
 MOST_HALVINGS: Final = (64, 256)
 """Most halvings in a cell, and in a line of it; the rest is then integrated without refinement."""
@@ -67,12 +69,12 @@ def add_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, room: Room, ch
     total, rows = room.sums[CELL], room.sums[ROWS]
     total[:] = 0.0
     cuts = cut_cell(cell, stack, faces, room.down)
-    start, halvings = 0.0, 0
+    start, halvings, fixed = 0.0, 0, points_needed(cell, stack, faces)
     for k in range(cuts + 1):
         next_cut = room.down[k] if k < cuts else 1.0
         while start < next_cut:
             end = next_cut
-            while not settle_rows(cell, start, end, stack, faces, room) and halvings < MOST_HALVINGS[0]:
+            while not settle_rows(cell, start, end, fixed, stack, faces, room) and halvings < MOST_HALVINGS[0]:
                 end = 0.5 * (start + end)
                 halvings += 1
             for channel in range(4):
@@ -91,17 +93,66 @@ def cut_cell(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[
     for high, low in (cell.left, cell.right):
         for x in (column, beyond):
             count = add_cut((x - high) / (low - high), cuts, count)
-    ramps = len(stack.ramps.radial)
+    ramps, has_splines = len(stack.ramps.radial), False
     for path in faces.members[cell.start : cell.end]:
         k = stack.shades[path]
-        if k >= ramps:
+        if k >= ramps + len(stack.samples.starts):
+            has_splines = True
+        elif k >= ramps:
             count = cut_picture(cell, stack, k - ramps, cuts, count)
         elif k >= 0:
             for high, low in (cell.left, cell.right, (column, column), (beyond, beyond)):
                 count = cut_line(stack.ramps, k, (high, cell.top), (low, cell.bottom), cuts, count)
             for high, low in ((column, beyond), (beyond, column)):
                 count = cut_turns(stack.ramps, k, (high, cell.top), (low, cell.bottom), cuts, count)
+    return cut_splines(cell, stack, faces, cuts, count) if has_splines else count
+
+
+@kernel(allocates=False)
+def cut_splines(cell: SlabCell, stack: PathStack, faces: SweepFaces, cuts: NDArray[np.float64], count: int) -> int:
+    """Cut a cell at the borders of splines, and into parts that are short enough for quadrature."""
+    column, beyond = float(cell.column), cell.column + 1.0
+    height = cell.bottom - cell.top
+    splines = len(stack.ramps.radial) + len(stack.samples.starts)
+    for high, low in (cell.left, cell.right, (column, column), (beyond, beyond)):
+        start, end = part_in_column(high, low, column)
+        if start < end:
+            begin = high + start * (low - high), cell.top + start * height
+            last = high + end * (low - high), cell.top + end * height
+            length = 0.0
+            for path in faces.members[cell.start : cell.end]:
+                k = stack.shades[path] - splines
+                if k >= 0:
+                    count = cut_borders(stack.splines, k, begin, last, (start, end), cuts, count)
+                    length = max(length, extent(stack.splines, k, begin, last))
+            count = cut_evenly(length, (start, end), cuts, count)
     return count
+
+
+@kernel(allocates=False)
+def part_in_column(high: float, low: float, column: float) -> Place:
+    """Return the part, in 0..1, of a straight edge, given by x at its top and bottom, that lies in a column."""
+    if low == high:
+        return 0.0, 1.0
+    one, other = (column - high) / (low - high), (column + 1.0 - high) / (low - high)
+    return max(min(one, other), 0.0), min(max(one, other), 1.0)
+
+
+@kernel(allocates=False)
+def points_needed(cell: SlabCell, stack: PathStack, faces: SweepFaces) -> int:
+    """Return the number of points between cuts if all varying paints of a face are blurs; 0 if it is to be found."""
+    column, beyond, length = float(cell.column), cell.column + 1.0, 0.0
+    splines = len(stack.ramps.radial) + len(stack.samples.starts)
+    for path in faces.members[cell.start : cell.end]:
+        k = stack.shades[path] - splines
+        if k >= 0 and stack.splines.blurs[k]:
+            for high, low in ((column, beyond), (beyond, column)):
+                length = max(length, extent(stack.splines, k, (high, cell.top), (low, cell.bottom)))
+        elif stack.shades[path] >= 0:
+            return 0
+    if stack.has_corners or length > MOST_PARTS:
+        return 0
+    return 2 if length <= 1.0 / 3.0 else 3
 
 
 @kernel(allocates=False)
@@ -111,10 +162,7 @@ def cut_picture(cell: SlabCell, stack: PathStack, k: int, cuts: NDArray[np.float
     count = cut_corners(stack.samples, k, (column, cell.top), (beyond, cell.bottom), cuts, count)
     height = cell.bottom - cell.top
     for high, low in (cell.left, cell.right, (column, column), (beyond, beyond)):
-        start, end = 0.0, 1.0
-        if low != high:
-            one, other = (column - high) / (low - high), (beyond - high) / (low - high)
-            start, end = max(min(one, other), 0.0), min(max(one, other), 1.0)
+        start, end = part_in_column(high, low, column)
         if start < end:
             begin = high + start * (low - high), cell.top + start * height
             last = high + end * (low - high), cell.top + end * height
@@ -123,10 +171,16 @@ def cut_picture(cell: SlabCell, stack: PathStack, k: int, cuts: NDArray[np.float
 
 
 @kernel(allocates=False)
-def settle_rows(cell: SlabCell, start: float, end: float, stack: PathStack, faces: SweepFaces, room: Room) -> bool:
-    """Integrate a part of a cell, from `start` to `end` in 0..1, by rows; return whether more rows change nothing."""
+def settle_rows(
+    cell: SlabCell, start: float, end: float, fixed: int, stack: PathStack, faces: SweepFaces, room: Room
+) -> bool:
+    """Integrate a part of a cell, from `start` to `end` in 0..1, by rows; return whether more rows change nothing.
+
+    If `fixed` is not 0, it is the number of points that is known to be enough, along each axis.
+    """
     rows, before, line = room.sums[ROWS], room.sums[ROWS_BEFORE], room.sums[LINE]
-    for points in range(1, MOST_POINTS + 1):
+    first_count, last_count = (fixed, fixed) if fixed else (1, MOST_POINTS)
+    for points in range(first_count, last_count + 1):
         for channel in range(4):
             before[channel] = rows[channel]
             rows[channel] = 0.0
@@ -135,32 +189,39 @@ def settle_rows(cell: SlabCell, start: float, end: float, stack: PathStack, face
             x0 = max(cell.left[0] + part * (cell.left[1] - cell.left[0]), float(cell.column))
             x1 = min(cell.right[0] + part * (cell.right[1] - cell.right[0]), cell.column + 1.0)
             if x1 > x0:
-                sum_line(cell, x0, x1, cell.top + part * (cell.bottom - cell.top), stack, faces, room)
+                sum_line(cell, (x0, x1), cell.top + part * (cell.bottom - cell.top), fixed, stack, faces, room)
                 for channel in range(4):
                     rows[channel] += weight * (end - start) * (cell.bottom - cell.top) * line[channel]
         if points > 1 and near(before, rows):
             return True
-    return False
+    return fixed != 0
 
 
 @kernel(allocates=False)
-def sum_line(cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, faces: SweepFaces, room: Room) -> None:
+def sum_line(
+    cell: SlabCell, ends: Place, y: float, fixed: int, stack: PathStack, faces: SweepFaces, room: Room
+) -> None:
     """Integrate the colour along a horizontal line."""
-    line, points = room.sums[LINE], room.sums[POINTS]
+    (x0, x1), line, points = ends, room.sums[LINE], room.sums[POINTS]
     line[:] = 0.0
-    cuts, ramps = 0, len(stack.ramps.radial)
+    cuts, length, ramps = 0, 0.0, len(stack.ramps.radial)
+    splines = ramps + len(stack.samples.starts)
     for path in faces.members[cell.start : cell.end]:
         k = stack.shades[path]
-        if k >= ramps:
+        if k >= splines:
+            cuts = cut_borders(stack.splines, k - splines, (x0, y), (x1, y), (0.0, 1.0), room.across, cuts)
+            length = max(length, extent(stack.splines, k - splines, (x0, y), (x1, y)))
+        elif k >= ramps:
             cuts = cut_seams(stack.samples, k - ramps, (x0, y), (x1, y), (0.0, 1.0), room.across, cuts)
         elif k >= 0:
             cuts = cut_line(stack.ramps, k, (x0, y), (x1, y), room.across, cuts)
+    cuts = cut_evenly(length, (0.0, 1.0), room.across, cuts)
     start, halvings = x0, 0
     for k in range(cuts + 1):
         next_cut = x0 + room.across[k] * (x1 - x0) if k < cuts else x1
         while start < next_cut:
             end = next_cut
-            while not settle_points(cell, start, end, y, stack, faces, room) and halvings < MOST_HALVINGS[1]:
+            while not settle_points(cell, (start, end), y, fixed, stack, faces, room) and halvings < MOST_HALVINGS[1]:
                 end = 0.5 * (start + end)
                 halvings += 1
             for channel in range(4):
@@ -170,11 +231,13 @@ def sum_line(cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, f
 
 @kernel(allocates=False)
 def settle_points(
-    cell: SlabCell, x0: float, x1: float, y: float, stack: PathStack, faces: SweepFaces, room: Room
+    cell: SlabCell, ends: Place, y: float, fixed: int, stack: PathStack, faces: SweepFaces, room: Room
 ) -> bool:
-    """Integrate a part of a line, from `x0` to `x1`, by points; return whether more points change nothing."""
+    """Integrate a part of a line, between two x, by points; return whether more points change nothing."""
+    x0, x1 = ends
     sums, before, colour = room.sums[POINTS], room.sums[POINTS_BEFORE], room.sums[POINT]
-    for points in range(1, MOST_POINTS + 1):
+    first_count, last_count = (fixed, fixed) if fixed else (1, MOST_POINTS)
+    for points in range(first_count, last_count + 1):
         for channel in range(4):
             before[channel] = sums[channel]
             sums[channel] = 0.0
@@ -184,7 +247,7 @@ def settle_points(
                 sums[channel] += weight * (x1 - x0) * colour[channel]
         if points > 1 and near(before, sums):
             return True
-    return False
+    return fixed != 0
 
 
 @kernel(allocates=False)
