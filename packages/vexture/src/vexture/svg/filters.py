@@ -1,8 +1,4 @@
-"""Filters (Filter Effects 1), which notes list but which are not drawn.
-
-A blur has no outline, and most filters blur: as smooth paints they would be steps or meshes of colours, not a sharp
-drawing. So a shape is drawn without its filter, sharp, and a note names the steps of the filter.
-"""
+"""Filters of elements (Filter Effects 1): values of the property, and the names of filters in notes."""
 
 import re
 from collections import ChainMap
@@ -12,7 +8,9 @@ import tinycss2
 from lxml import etree
 
 from vexture.svg.document import local_name
+from vexture.svg.filter_functions import function_element
 from vexture.svg.paint_servers import LINK, PaintServers
+from vexture.svg.space import ElementPlace
 from vexture.svg.values import number
 
 HIDING: Final = ""
@@ -46,6 +44,23 @@ def filter_label(value: str, servers: PaintServers) -> str | None:
         elif token.type != "whitespace":
             return None
     return f"filter of {join_names([*ChainMap(*reversed(lists))])}" if all(lists) else HIDING
+
+
+def filter_elements(value: str, servers: PaintServers, place: ElementPlace) -> list[etree._Element] | None:
+    """Return the filter elements of a list of filters; functions become equivalent elements without a parent.
+
+    Return None if a function is not valid.
+    """
+    found: list[etree._Element] = []
+    for token in tinycss2.parse_component_value_list(value, skip_comments=True):
+        if token.type == "whitespace":
+            continue
+        link = LINK.fullmatch(tinycss2.serialize([token]))
+        element = servers.target(link[2]) if link is not None else function_element(token, place)
+        if element is None:
+            return None
+        found.append(element)
+    return found
 
 
 def steps_of(element: etree._Element) -> dict[str, None]:

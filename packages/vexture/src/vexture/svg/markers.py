@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from vexture.base.tolerance import ROUND
 from vexture.svg.compositing import veil_of
 from vexture.svg.declarations import MARKERS
+from vexture.svg.filtering import note_effects
+from vexture.svg.filters import HIDING
 from vexture.svg.masks import MeasuredScene, add_masks
 from vexture.svg.path_data import PathPen, Point
 from vexture.svg.shapes import ShapeElement, check, path_data, shape_outlines
@@ -39,9 +41,6 @@ class MarkerScene(MeasuredScene, Protocol):
 
     def window(self, element: etree._Element, style: ElementStyle, sides: Rectangle) -> ContentWindow | None:
         """Return the viewport of an element with sides; None if it shows nothing."""
-
-    def note_effects(self, element: etree._Element, style: ElementStyle) -> bool:
-        """Note unsupported effects; return whether anything of the element is visible with its filter."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -114,8 +113,11 @@ def read_marker(scene: MarkerScene, name: str, shape: ShapeElement, place: Eleme
     if element is None:
         return None
     style = scene.servers.style_of(element)
-    if not scene.note_effects(element, style):
+    label = note_effects(scene, element, style)
+    if label == HIDING:
         return None
+    if label is not None:
+        scene.report.left_out(label, element)
     scale = 1.0 if element.get("markerUnits") == "userSpaceOnUse" else shape.length("stroke-width") or 0.0
     own = ShapeElement(element, style, place.viewport, shape.tolerance, shape.report)
     width, height = side(own, "markerWidth", place.viewport.width), side(own, "markerHeight", place.viewport.height)

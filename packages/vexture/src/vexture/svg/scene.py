@@ -7,7 +7,7 @@ limits.
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from math import inf
 from os import PathLike
 
@@ -24,7 +24,9 @@ from vexture.svg.animations import ANIMATIONS
 from vexture.svg.compositing import Veil, group_paths, veil_of
 from vexture.svg.css_gradients import background_of
 from vexture.svg.document import HTML, applies, local_name
-from vexture.svg.filters import HIDING, filter_label
+from vexture.svg.filter_soft import Sources
+from vexture.svg.filtering import note_effects, paint_filtered
+from vexture.svg.filters import HIDING
 from vexture.svg.gradients import rows
 from vexture.svg.images import Images, image_sides, paint_image
 from vexture.svg.links import reference
@@ -95,6 +97,7 @@ class SvgScene:
         self.style: ElementStyle = self.cascade.style(root, self.cascade.initial)
         self.used: int = 0
         self.typesetter: Typesetter = Typesetter(fonts, self.cascade.sheets.font_faces, report)
+        self.sources: Sources = Sources()  # of blurs
         self.boxes: Boxes = {}  # boxes of the elements in notes, after painting
 
     def paint(
@@ -134,7 +137,8 @@ class SvgScene:
         """
         note_unsupported(self.root, self.style, self.servers, self.report, self.chosen)
         opacity = self.style.opacity("opacity")
-        if self.style["display"].lower() == "none" or opacity == 0.0 or not self.note_effects(self.root, self.style):
+        label = note_effects(self, self.root, self.style)
+        if self.style["display"].lower() == "none" or opacity == 0.0 or label == HIDING:
             return []
         around = place.space
         place = replace(place, space=self.space_inside(around, content, size, is_cut=frame is not None))
@@ -142,11 +146,17 @@ class SvgScene:
             place = replace(place, veil=Veil(place.veil, opacity))  # there is nothing to blend with
         note_outer_units(self, self.root, self.style, size)
         place, stack = add_masks(self, self.root, place)
-        if place.chosen and frame is not None:
-            whole, into = [ShapeOutline.rectangle(*frame).loop], rows(around.whole.inverse())
-            for paint in background_of(self.style, frame):
-                painter.add(whole, replace(place, space=around), FillRule.NONZERO, paint.after(into), place.name)
-        return [*stack, *((child, place) for child in reversed(self.root))]
+
+        def paint(place: ElementPlace, painter: Painter) -> list[PlacedElement]:
+            if place.chosen and frame is not None:
+                whole, into = [ShapeOutline.rectangle(*frame).loop], rows(around.whole.inverse())
+                for paint in background_of(self.style, frame):
+                    painter.add(whole, replace(place, space=around), FillRule.NONZERO, paint.after(into), place.name)
+            return [(child, place) for child in self.root]
+
+        if label is None:
+            return [*stack, *reversed(paint(place, painter))]
+        return [*stack, *reversed(paint_filtered(self, self.root, place, painter, label, paint))]
 
     def space_inside(
         self, around: Space, content: Transform, size: tuple[float, float] | None, *, is_cut: bool
@@ -170,7 +180,7 @@ class SvgScene:
     def paint_embedded(self, root: etree._Element, place: ElementPlace, painter: Painter) -> None:
         """Paint another document at a place inside its viewport; nothing of this document applies to it."""
         scene = SvgScene(root, self.report, self.images.inside, fonts=self.typesetter.files)
-        scene.used = self.used
+        scene.used, scene.sources = self.used, self.sources
         size, content = (place.viewport.width, place.viewport.height), Identity
         box = scene.view(root)
         if box is not None and min(box[2:]) < THINNEST:
@@ -227,7 +237,8 @@ class SvgScene:
             return []
         if (name in SHAPES or name in BOXED) and not chosen:
             return []
-        if not (place.is_clip or is_measured or self.note_effects(element, style)):
+        label = None if place.is_clip or is_measured else note_effects(self, element, style)
+        if label == HIDING:
             return []
         matrix = self.transform(element, style, place)
         if place.depth >= DEEPEST:
@@ -247,7 +258,9 @@ class SvgScene:
             inner = window.within(inner)
         if not is_measured:
             inner, shown = add_masks(self, element, inner, ("clip-path",) if inner.is_clip else tuple(MASKING))
-        return [*shown, *self.content(element, inner, painter)]
+        if label is None:
+            return [*shown, *self.content(element, inner, painter)]
+        return [*shown, *paint_filtered(self, element, inner, painter, label, partial(self.content, element))]
 
     def content(self, element: etree._Element, inner: ElementPlace, painter: Painter) -> list[PlacedElement]:
         """Paint a shape, or return the elements that another element shows; `inner` is the place inside."""
@@ -376,20 +389,6 @@ class SvgScene:
             return matrix
         x, y = left + origin[0], top + origin[1]
         return Identity.translate(x, y).transform(matrix).translate(-x, -y) if x or y else matrix
-
-    def note_effects(self, element: etree._Element, style: ElementStyle) -> bool:
-        """Note an unsupported filter or motion; return whether anything is visible with the filter."""
-        if style["offset-path"].lower() != "none":
-            self.report.left_out("offset-path", element)
-        value = style["filter"]
-        if value.lower() == "none":
-            return True
-        named = filter_label(value, self.servers)
-        if named is None:
-            self.report.invalid("filter", value, element)
-        elif named != HIDING:
-            self.report.left_out(named, element)
-        return named != HIDING
 
 
 def switch_children(switch: etree._Element) -> list[etree._Element]:

@@ -78,6 +78,7 @@ class ElementPlace:
     veil: Veil | None = None  # innermost veil around it
     is_clip: bool = False  # True if only the outlines of shapes count here
     masks: int = 0  # number of clips, markers, masks and patterns of which it is part
+    filters: int = 0  # number of elements around it with a filter
     name: str = ""  # name of elements here: the nearest name around them, or that of the outermost `use`
     is_instance: bool = False  # True if the name is that of a `use`
     context: "Context | None" = None  # element that provides the paints of `context-fill` and `context-stroke`
