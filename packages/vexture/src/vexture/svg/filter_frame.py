@@ -145,16 +145,21 @@ def _places(positions: Numbers, count: int, edges: tuple[float, float], mode: Ed
     first, last = max(0, ceil(edges[0] - ROUNDING)), min(count, ceil(edges[1] - ROUNDING)) - 1
     if last < first:  # thinner than a pixel, or beyond the pixels
         first = last = int(np.clip(np.floor(0.5 * (edges[0] + edges[1]) + 0.5), 0, count - 1))
-    if mode == "wrap" and edges[1] > edges[0]:
-        positions = edges[0] + np.mod(positions - edges[0], edges[1] - edges[0])
+    extent = edges[1] - edges[0]
+    if mode == "wrap" and extent > 0.0:
+        positions = edges[0] + np.mod(positions - edges[0], extent)
     positions = positions.clip(first - 2.0, last + 2.0)
     rounded = np.rint(positions)
     positions = np.where(np.abs(positions - rounded) < ROUNDING, rounded, positions)
     floor = np.floor(positions)
     low = floor.astype(np.intp)
     high, share = low + 1, positions - floor
-    if mode == "wrap":
-        low, high = np.where(low < first, last, low), np.where(high > last, first, high)
+    if mode == "wrap":  # between the last and the first middle there may be more or less than a pixel
+        seam = max(extent - (last - first), ROUNDING)
+        before, after = positions < first, positions > last
+        low, high = np.where(before | after, last, low), np.where(before | after, first, high)
+        share = np.where(after, (positions - last) / seam, np.where(before, 1.0 + (positions - first) / seam, share))
+        share = share.clip(0.0, 1.0)
     visible = [((index >= first) & (index <= last)) | (mode != "none") for index in (low, high)]
     return _Places(low.clip(first, last), high.clip(first, last), share, visible[0] * (1.0 - share), visible[1] * share)
 

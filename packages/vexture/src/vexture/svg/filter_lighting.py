@@ -16,6 +16,17 @@ RIM: Final = 0.016
 MOST_EXPONENT: Final = 1e4
 """Greatest exponent of a highlight or a spot light."""
 
+MOST: Final = 1e15
+"""Greatest number of a surface or a place, in user units: squares of more would overflow."""
+
+LEAST_LENGTH: Final = 1e-9
+"""Least distance of neighbours, in user units."""
+
+
+def limit(number: float) -> float:
+    """Limit a number to `MOST` on both sides of 0."""
+    return min(max(number, -MOST), MOST)
+
 
 def light(pixels: Pixels, frame: PixelFrame, lighting: Lighting, color: Triple, bounds: Rectangle) -> Pixels:
     """Return the light that a surface reflects: opaque and matt, or, with an exponent, its highlights.
@@ -35,19 +46,19 @@ def light(pixels: Pixels, frame: PixelFrame, lighting: Lighting, color: Triple, 
     -------
     (rows, columns, 4) array
     """
-    height = lighting.surface_scale * pixels[..., 3]
+    height, constant = limit(lighting.surface_scale) * pixels[..., 3], limit(lighting.constant)
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         slope_x, slope_y = surface_slopes(height, frame, lighting.lengths, bounds)
         to_light, strength = _light_rays(lighting, frame, height)
         if lighting.exponent is None:
             share = _cosine((-slope_x, -slope_y, np.ones_like(height)), to_light)
-            lit = lighting.constant * share.clip(0.0, 1.0) * strength
+            lit = constant * share.clip(0.0, 1.0) * strength
             colors = [lit * component for component in color]
             return limit_colors(np.stack([*colors, np.ones_like(lit)], axis=2))
         halfway = (to_light[0], to_light[1], to_light[2] + 1.0)
         share = _cosine((-slope_x, -slope_y, np.ones_like(height)), halfway).clip(0.0, 1.0)
         exponent = float(np.clip(lighting.exponent, -MOST_EXPONENT, MOST_EXPONENT))
-        lit = np.nan_to_num(lighting.constant * share**exponent * strength).clip(0.0, None)
+        lit = np.nan_to_num(constant * share**exponent * strength).clip(0.0, None)
         colors = [(lit * component).clip(0.0, 1.0) for component in color]
         return np.stack([*colors, np.maximum.reduce(colors)], axis=2)
 
@@ -74,9 +85,10 @@ def surface_slopes(
     """
     left, top, right, bottom = edge_positions(frame, bounds)
     across, down = (left, right), (top, bottom)
-    dx, dy = lengths[0] / frame.width, lengths[1] / frame.height
-    slopes_x = _means(_differences(height.T, dx, across, lengths[0]).T, dy, down)
-    slopes_y = _means(_differences(height, dy, down, lengths[1]).T, dx, across).T
+    by_x, by_y = (min(max(length, LEAST_LENGTH), MOST) for length in lengths)
+    dx, dy = by_x / frame.width, by_y / frame.height
+    slopes_x = _means(_differences(height.T, dx, across, by_x).T, dy, down)
+    slopes_y = _means(_differences(height, dy, down, by_y).T, dx, across).T
     return slopes_x, slopes_y
 
 
@@ -119,7 +131,7 @@ def _light_rays(lighting: Lighting, frame: PixelFrame, height: Numbers) -> tuple
     if isinstance(source, DistantLight):
         azimuth, elevation = radians(source.azimuth), radians(source.elevation)
         return (cos(azimuth) * cos(elevation), sin(azimuth) * cos(elevation), sin(elevation)), 1.0
-    x, y, z = source.place
+    x, y, z = map(limit, source.place)
     to_light = (x - frame.xs[None, :], y - frame.ys[:, None], z - height)
     distance = np.sqrt(to_light[0] ** 2 + to_light[1] ** 2 + to_light[2] ** 2)
     distance[distance == 0.0] = 1.0
@@ -128,7 +140,7 @@ def _light_rays(lighting: Lighting, frame: PixelFrame, height: Numbers) -> tuple
 
 
 def _spot_strength(spot: SpotLight, rays: _Vectors) -> Numbers:
-    axis = [place - target for place, target in zip(spot.place, spot.target, strict=True)]
+    axis = [limit(place) - limit(target) for place, target in zip(spot.place, spot.target, strict=True)]
     cosines = _cosine(rays, (axis[0], axis[1], axis[2]))
     exponent = float(np.clip(spot.exponent, 0.0, MOST_EXPONENT))
     strength = np.where(cosines > 0.0, cosines.clip(0.0, 1.0) ** exponent, 0.0)

@@ -18,6 +18,12 @@ REACH: Final = 4.5
 LEAST_SAMPLED: Final = 0.7
 """Deviation in pixels from which on the values of a Gaussian are weights; their variance is off by 0.2% there."""
 
+MOST_DEVIATION: Final = 1e6
+"""Greatest deviation in pixels; of a picture of 1,000 pixels a side, nothing is visible then."""
+
+MOST_STEP: Final = 1e9
+"""Greatest distance of the neighbours in a convolution, in pixels; all but those at the target are beyond the edges."""
+
 MOST_WORK: Final = 1 << 27
 """Most products of a convolution: numbers of a picture times those of the matrix that are not 0."""
 
@@ -77,6 +83,7 @@ def gaussian_weights(deviation: float, count: int) -> Numbers:
     >>> gaussian_weights(0.5, 9).round(4).tolist()
     [0.791, 0.0981, 0.0061, 0.0003]
     """
+    deviation = min(deviation, MOST_DEVIATION)
     if deviation >= LEAST_SAMPLED:
         distances = np.arange(min(count, 1 + ceil(min(REACH * deviation, float(count)))))
         values: Numbers = np.exp(-0.5 * (distances / deviation) ** 2)
@@ -163,7 +170,7 @@ def convolve(pixels: Pixels, frame: PixelFrame, kernel: Convolution, bounds: Rec
     left, top, right, bottom = edge_positions(frame, bounds)
     sums = np.zeros_like(pixels)
     ys, xs = np.arange(float(frame.rows)), np.arange(float(frame.columns))
-    dx, dy = kernel.lengths[0] / frame.width, kernel.lengths[1] / frame.height
+    dx, dy = min(kernel.lengths[0] / frame.width, MOST_STEP), min(kernel.lengths[1] / frame.height, MOST_STEP)
     with np.errstate(over="ignore", invalid="ignore"):
         for i in np.flatnonzero(matrix.any(axis=1)):
             line = sample_rows(source, ys + (i - kernel.target[1]) * dy, (top, bottom), kernel.edges)
