@@ -96,7 +96,7 @@ def test_a_plane_has_one_normal() -> None:
     ray = np.array([cos(azimuth) * cos(elevation), sin(azimuth) * cos(elevation), sin(elevation)])
     found = shine(plane, DistantLight(200.0, 40.0), surface_scale=3.0)
     np.testing.assert_allclose(found[..., :3], normal @ ray)
-    halfway = ray + (0.0, 0.0, 1.0)
+    halfway = ray + np.array([0.0, 0.0, 1.0])
     halfway /= np.linalg.norm(halfway)
     bright = shine(plane, DistantLight(200.0, 40.0), surface_scale=3.0, constant=0.8, exponent=5.0)
     np.testing.assert_allclose(bright, 0.8 * (normal @ halfway) ** 5)

@@ -137,8 +137,8 @@ def test_resvg_draws_the_same_filters(name: str, shapes: np.ndarray) -> None:
     text, steps = DRAWN[name]
     drawn = render_file(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{SIDE}" height="{SIDE}"><filter id="f" x="0" y="0" '
-        f'width="{SIDE}" height="{SIDE}" filterUnits="userSpaceOnUse" color-interpolation-filters="sRGB">{text}</filter>'
-        f'<g filter="url(#f)">{SHAPES}</g></svg>'
+        f'width="{SIDE}" height="{SIDE}" filterUnits="userSpaceOnUse" color-interpolation-filters="sRGB">{text}'
+        f'</filter><g filter="url(#f)">{SHAPES}</g></svg>'
     )
     gap = 255.0 * np.abs(run([replace(each, is_linear=False) for each in steps], shapes) - drawn)
     assert gap.max() <= (9.0 if name == "shadow" else 2.0)  # its blur is an approximation
