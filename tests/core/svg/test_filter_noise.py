@@ -35,6 +35,7 @@ def test_seeds_are_whole_and_positive(seed: float, first: int) -> None:
 
 def test_hostile_seeds_are_numbers_of_the_generator() -> None:
     assert {start_seed(seed) for seed in (2.0**31, 1e300)} == {2**31 - 2}
+    assert start_seed(-(2.0**31) + 2) == 1
     assert all(1 <= start_seed(seed) <= 2**31 - 2 for seed in (-1e300, -(2.0**31), -(2.0**31) + 1))
 
 
@@ -109,6 +110,7 @@ def test_stitched_tiles_continue_at_the_opposite_edge(is_fractal: bool) -> None:
 
 def test_stitching_takes_the_frequency_of_least_relative_change() -> None:
     assert stitch_frequency(0.25, 10.0) == 0.3  # 2.5 periods: 2 is a change by 1.25, 3 one by 1.2
+    assert stitch_frequency(0.245, 10.0) == 0.3  # 0.2 is nearer, but not in proportion
     assert stitch_frequency(0.24, 10.0) == 0.2
     assert stitch_frequency(0.3, 10.0) == 0.3
 

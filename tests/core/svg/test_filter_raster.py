@@ -9,7 +9,7 @@ from svg_reference import render_file
 from vexture.base.deadline import within
 from vexture.base.errors import LimitError, SourceError
 from vexture.drawing.group import Blend
-from vexture.svg.filter_frame import PixelFrame, crop
+from vexture.svg.filter_frame import PixelFrame, crop, shift
 from vexture.svg.filter_noise import turbulence
 from vexture.svg.filter_operations import (
     Blending,
@@ -17,6 +17,7 @@ from vexture.svg.filter_operations import (
     ColorMatrix,
     ComponentTransfer,
     Convolution,
+    Displacement,
     DistantLight,
     GaussianBlur,
     Lighting,
@@ -186,8 +187,25 @@ def test_colours_are_mixed_in_the_space_of_the_step(shapes: np.ndarray) -> None:
         source = convert_colors(shapes, to_linear) if is_linear else shapes
         blurred = gaussian_blur(source, FRAME, (3.0, 2.0))
         np.testing.assert_allclose(found, convert_colors(blurred, from_linear) if is_linear else blurred, atol=1e-9)
+    grown = run([step(Morphology((2.0, 2.0), True), "SourceGraphic")], shapes)
+    linear = morphology(convert_colors(shapes, to_linear), FRAME, (2.0, 2.0), True)
+    np.testing.assert_allclose(grown, convert_colors(linear, from_linear), atol=1e-9)
     wide = run([step(Morphology((2.0, 2.0), True), "SourceGraphic", is_linear=False)], shapes)
     np.testing.assert_allclose(wide, morphology(shapes, FRAME, (2.0, 2.0), True))
+
+
+def test_a_light_has_a_colour_in_srgb(shapes: np.ndarray) -> None:
+    for is_linear in (False, True):
+        light = Lighting(DistantLight(0.0, 90.0), (0.5, 0.2, 0.1), surface_scale=0.0)
+        found = run([step(light, "SourceAlpha", is_linear=is_linear)], shapes)
+        np.testing.assert_allclose(found, np.broadcast_to((0.5, 0.2, 0.1, 1.0), found.shape), atol=1e-6)
+
+
+def test_a_displacement_reads_only_the_map_in_the_space_of_the_step(shapes: np.ndarray) -> None:
+    grey = step(SolidColor((0.5, 0.5, 0.5, 1.0)), result="a")
+    for is_linear, red in ((False, 0.5), (True, 0.21404114)):
+        found = run([grey, step(Displacement(10.0, (0, 3)), *BOTH, is_linear=is_linear)], shapes)
+        np.testing.assert_allclose(found, shift(shapes, FRAME, 10.0 * (0.5 - red), -5.0), atol=1e-6)
 
 
 def test_a_flood_is_in_srgb_and_blends_in_the_space_of_the_step(shapes: np.ndarray) -> None:
@@ -254,6 +272,12 @@ def test_a_region_within_pixels_has_no_ridge_in_the_light() -> None:
     np.testing.assert_allclose(found[inside][:, 0] / found[inside][:, 3], np.sin(np.radians(50.0)))
 
 
+def test_a_tile_within_pixels_has_no_seams(shapes: np.ndarray) -> None:
+    part = step(SolidColor(GREEN), subregion=(5.3, 6.4, 15.8, 14.9))
+    found = run([part, step(Repetition(), "")], shapes)
+    np.testing.assert_allclose(found, np.broadcast_to((0.0, 0.5, 0.0, 0.5), found.shape))
+
+
 def test_noise_is_averaged_where_it_is_finer_than_pixels(shapes: np.ndarray) -> None:
     assert [noise_samples(Turbulence((f, f), n), FRAME) for f, n in [(0.05, 4), (0.05, 5), (0.6, 1)]] == [1, 2, 2]
     noise = Turbulence((0.4, 0.4), 3, 5.0, is_fractal=True)
@@ -297,6 +321,8 @@ def test_results_that_are_needed_at_a_time_are_limited(shapes: np.ndarray) -> No
     together = step(Stack(), *(str(k) for k in range(70)))
     with pytest.raises(LimitError, match="needs 70 results of 512 x 512 pixels at a time; the limit is 64; use fewer"):
         check_steps([*floods, together], large)
+    with pytest.raises(LimitError, match="needs 70 results"):
+        evaluate([*floods, together], {}, large)
     check_steps([*floods, together], FRAME)
     in_turn = [step(Shift(1.0, 0.0), str(k), result=str(k + 1)) for k in range(1000)]
     check_steps(in_turn, large)

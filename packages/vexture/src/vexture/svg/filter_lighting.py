@@ -5,8 +5,7 @@ from typing import Final
 
 import numpy as np
 
-from vexture.drawing.sampled import Pixels
-from vexture.svg.filter_frame import Numbers, PixelFrame, Rectangle, edge_positions, sample_rows
+from vexture.svg.filter_frame import Numbers, PixelFrame, Pixels, Rectangle, edge_positions, sample_rows
 from vexture.svg.filter_operations import DistantLight, Lighting, SpotLight, Triple
 from vexture.svg.filter_pixels import limit_colors
 

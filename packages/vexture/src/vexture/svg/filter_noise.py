@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.deadline import check_time
-from vexture.drawing.sampled import Pixels
-from vexture.svg.filter_frame import Numbers, PixelFrame, Rectangle
+from vexture.svg.filter_frame import Numbers, PixelFrame, Pixels, Rectangle
 from vexture.svg.filter_operations import Turbulence
 from vexture.svg.filter_pixels import premultiply_colors
 

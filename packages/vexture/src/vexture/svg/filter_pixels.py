@@ -6,8 +6,7 @@ from typing import Final
 import numpy as np
 
 from vexture.drawing.group import Blend
-from vexture.drawing.sampled import Pixels
-from vexture.svg.filter_frame import Numbers, PixelFrame
+from vexture.svg.filter_frame import Numbers, PixelFrame, Pixels
 from vexture.svg.filter_operations import TransferCurve
 
 LEAST_OPACITY: Final = 1e-9
@@ -24,7 +23,7 @@ def straighten(pixels: Pixels) -> Pixels:
     """Return colours that are not premultiplied, 0..1, with the opacities; without opacity, black."""
     alpha = pixels[..., 3:]
     colors = (pixels[..., :3] / np.maximum(alpha, LEAST_OPACITY)).clip(0.0, 1.0)
-    return np.concatenate([np.where(alpha > LEAST_OPACITY, colors, 0.0), alpha], axis=2)
+    return np.concatenate([colors, alpha], axis=2)
 
 
 def premultiply_colors(straight: Pixels) -> Pixels:

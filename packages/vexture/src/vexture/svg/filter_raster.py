@@ -8,9 +8,9 @@ import numpy as np
 
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError, SourceError
-from vexture.drawing.sampled import Pixels
 from vexture.svg.filter_frame import (
     PixelFrame,
+    Pixels,
     Rectangle,
     crop,
     fill_border,

@@ -7,8 +7,7 @@ import numpy as np
 
 from vexture.base.deadline import check_time
 from vexture.base.errors import LimitError
-from vexture.drawing.sampled import Pixels
-from vexture.svg.filter_frame import Numbers, PixelFrame, Rectangle, edge_positions, sample_columns, sample_rows
+from vexture.svg.filter_frame import Numbers, PixelFrame, Pixels, Rectangle, edge_positions, sample_columns, sample_rows
 from vexture.svg.filter_operations import Convolution
 from vexture.svg.filter_pixels import limit_colors, premultiply_colors, straighten
 
