@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.errors import SourceError
-from vexture.drawing.sampled import Pixels
 
 Rectangle: TypeAlias = tuple[float, float, float, float]
 """Left, top, right and bottom in user space, whose y axis points down."""
 
 Numbers: TypeAlias = NDArray[np.float64]
+
+Pixels: TypeAlias = Numbers
+"""Premultiplied colours and opacity, 0..1, (rows, columns, 4), the top row first."""
 
 EdgeMode: TypeAlias = Literal["none", "duplicate", "wrap"]
 """Values beyond the edges of a picture: transparent, those at the edge, or those of the opposite edge."""
