@@ -136,10 +136,8 @@ def test_a_spot_light_has_an_axis_and_a_cone() -> None:
 
 def test_a_cone_is_at_most_a_half_space() -> None:
     frame = PixelFrame(-20.0, -0.5, 1.0, 1.0, 1, 40)
-    half, more = (
-        shine(np.zeros((1, 40)), SpotLight((0.0, 0.0, 1.0), (5.0, 0.0, 1.0), 0.0, cone), frame)
-        for cone in (90.0, -200.0)
-    )
+    spots = (SpotLight((0.0, 0.0, 1.0), (5.0, 0.0, 1.0), 0.0, cone) for cone in (90.0, 300.0))
+    half, more = (shine(np.zeros((1, 40)), spot, frame) for spot in spots)
     assert 0 < np.count_nonzero(half[..., 0]) < 40
     np.testing.assert_array_equal(more, half)
 
