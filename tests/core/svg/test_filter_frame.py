@@ -31,9 +31,9 @@ def test_pixels_lie_from_the_corner_rightwards_and_downwards() -> None:
     assert FRAME.bounds == (-3.0, 2.0, 1.5, 5.0)
 
 
-@pytest.mark.parametrize("numbers", [(0.0, 0.0, 0.0, 1.0), (0.0, np.nan, 1.0, 1.0), (0.0, 0.0, 1.0, -1.0)])
+@pytest.mark.parametrize("numbers", [(0, 0, 0, 1), (0, np.nan, 1, 1), (0, 0, 1, -1), (0, 1e13, 1, 1), (0, 0, 1, 1e-10)])
 def test_pixels_have_a_size(numbers: tuple[float, float, float, float]) -> None:
-    with pytest.raises(SourceError, match="2 x 2 pixels"):
+    with pytest.raises(SourceError, match=r"2 x 2 pixels of .* at .*; use pixels of 1e-09 to 1e.12, nearer than 1e.12"):
         PixelFrame(*numbers, 2, 2)
 
 

@@ -297,6 +297,7 @@ def test_results_are_colours_in_srgb(shapes: np.ndarray) -> None:
     "operation",
     [
         GaussianBlur((np.nan, 1.0)),
+        Shift(1e16, 0.0),
         Turbulence((0.1, np.inf)),
         Lighting(DistantLight(np.nan, 0.0), (1.0, 1.0, 1.0)),
         ComponentTransfer((TransferCurve("table", (0.0, np.nan)),) * 4),
@@ -304,10 +305,12 @@ def test_results_are_colours_in_srgb(shapes: np.ndarray) -> None:
     ids=lambda operation: type(operation).__name__,
 )
 def test_parameters_that_are_no_numbers_are_refused(operation: Operation) -> None:
-    with pytest.raises(SourceError, match=rf"{type(operation).__name__}\.\w+.* of a filter is (nan|inf); use a finite"):
+    with pytest.raises(SourceError, match=rf"{type(operation).__name__}\.\w+.* of a filter is (nan|inf|1e\+16); use a"):
         step(operation)
-    with pytest.raises(SourceError, match="subregion"):
+    with pytest.raises(SourceError, match="subregion of a filter is nan"):
         step(Stack(), subregion=(0.0, 0.0, np.nan, 1.0))
+    with pytest.raises(SourceError, match=r"^region of a filter is inf; use a number from -1e\+15 to 1e\+15$"):
+        evaluate([step(Stack())], {}, FRAME, (0.0, 0.0, np.inf, 1.0))
 
 
 def test_pixels_of_another_shape_are_refused() -> None:

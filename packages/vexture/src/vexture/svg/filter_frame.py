@@ -1,7 +1,7 @@
 """Places of a filter's pixels in user space: coordinates, cover of rectangles, and values between pixels."""
 
 from dataclasses import dataclass
-from math import ceil, inf, isfinite
+from math import ceil, inf
 from typing import Final, Literal, TypeAlias
 
 import numpy as np
@@ -24,6 +24,10 @@ Cover: TypeAlias = tuple[Numbers, Numbers]
 """Parts of rows, and parts of columns, that a rectangle covers."""
 
 EVERYWHERE: Final[Rectangle] = (-inf, -inf, inf, inf)
+
+SMALLEST: Final = 1e-9
+LARGEST: Final = 1e12
+"""Least and greatest side of a pixel, in user units; its place is less than the latter from 0."""
 
 ROUNDING: Final = 1e-9
 """Part of a pixel that counts as nothing: coordinates that should coincide differ by rounding."""
@@ -51,8 +55,12 @@ class PixelFrame:
 
     def __post_init__(self) -> None:
         numbers = (self.left, self.top, self.width, self.height)
-        if not all(map(isfinite, numbers)) or min(numbers[2:]) <= 0.0 or min(self.rows, self.columns) < 1:
-            raise SourceError(f"a filter has {self.rows} x {self.columns} pixels at {numbers}")
+        is_small = all(abs(number) <= LARGEST for number in numbers)
+        if not is_small or min(numbers[2:]) < SMALLEST or min(self.rows, self.columns) < 1:
+            raise SourceError(
+                f"a filter has {self.columns} x {self.rows} pixels of {self.width:g} x {self.height:g} at "
+                f"{self.left:g}, {self.top:g}; use pixels of {SMALLEST:g} to {LARGEST:g}, nearer than {LARGEST:g}"
+            )
 
     @property
     def bounds(self) -> Rectangle:

@@ -132,7 +132,7 @@ def turbulence(noise: Turbulence, frame: PixelFrame, subregion: Rectangle, sampl
         for axis in range(2):
             extent = subregion[axis + 2] - subregion[axis]
             if extent > 0.0 and frequencies[axis] > 0.0:
-                frequencies[axis] = stitch_frequency(frequencies[axis], extent)
+                frequencies[axis] = min(stitch_frequency(frequencies[axis], extent), MOST_FREQUENCY)
             count = trunc(extent * frequencies[axis] + 0.5)
             stitches[axis] = _Seam(count, trunc(subregion[axis] * frequencies[axis] + ORIGIN + count))
     lattice, height = noise_lattice(start_seed(noise.seed)), max(1, BLOCK // (4 * frame.columns))

@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields, is_dataclass
-from math import isfinite
 from typing import Final, Literal, TypeAlias
 
 from vexture.base.errors import SourceError
@@ -12,6 +11,9 @@ from vexture.svg.filter_frame import EdgeMode, Numbers, Rectangle
 Pair: TypeAlias = tuple[float, float]
 Triple: TypeAlias = tuple[float, float, float]
 Quadruple: TypeAlias = tuple[float, float, float, float]
+
+MOST_NUMBER: Final = 1e15
+"""Greatest number in a filter, on both sides of 0; sums and squares of such numbers are exact enough, and finite."""
 
 IDENTITY: Final = (1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0)
 """Colour matrix that changes nothing."""
@@ -212,18 +214,17 @@ class RasterStep:
     is_linear: bool = True
 
     def __post_init__(self) -> None:
-        check_finite(self.operation)
-        if self.subregion is not None and not all(map(isfinite, self.subregion)):
-            raise SourceError(f"a step of a filter has the subregion {self.subregion}; use finite numbers")
+        check_numbers(self.operation)
+        check_numbers(self.subregion, "subregion")
 
 
-def check_finite(operation: object, name: str = "") -> None:
-    """Raise a `SourceError` if a parameter is infinite or no number."""
+def check_numbers(operation: object, name: str = "") -> None:
+    """Raise a `SourceError` if a parameter is no number from -`MOST_NUMBER` to `MOST_NUMBER`."""
     if is_dataclass(operation):
         for field in fields(operation):
-            check_finite(getattr(operation, field.name), f"{name or type(operation).__name__}.{field.name}")
+            check_numbers(getattr(operation, field.name), f"{name or type(operation).__name__}.{field.name}")
     elif isinstance(operation, tuple):
         for number in operation:
-            check_finite(number, name)
-    elif isinstance(operation, float) and not isfinite(operation):
-        raise SourceError(f"{name} of a filter is {operation}; use a finite number")
+            check_numbers(number, name)
+    elif isinstance(operation, float) and not abs(operation) <= MOST_NUMBER:
+        raise SourceError(f"{name} of a filter is {operation:g}; use a number from -{MOST_NUMBER:g} to {MOST_NUMBER:g}")

@@ -38,6 +38,7 @@ from vexture.svg.filter_operations import (
     SolidColor,
     Stack,
     Turbulence,
+    check_numbers,
 )
 from vexture.svg.filter_pixels import (
     blend,
@@ -103,10 +104,24 @@ def evaluate(
     LimitError
         If the filter takes too much memory or time.
     SourceError
-        If a parameter is no finite number, or pixels have another shape.
+        If the region has a number beyond 10^15, or pixels have another shape.
+
+    Examples
+    --------
+    A shadow of one pixel, moved to the right, under the pixel.
+
+    >>> frame, dot = PixelFrame(0.0, 0.0, 1.0, 1.0, 1, 3), np.zeros((1, 3, 4))
+    >>> dot[0, 0] = 1.0
+    >>> steps = [
+    ...     RasterStep(Shift(1.0, 0.0), ("SourceAlpha",), "shadow"),
+    ...     RasterStep(Stack(), ("shadow", "SourceGraphic")),
+    ... ]
+    >>> evaluate(steps, {"SourceGraphic": dot}, frame).round(6).tolist()
+    [[[1.0, 1.0, 1.0, 1.0], [0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 0.0]]]
     """
     shape = (frame.rows, frame.columns, 4)
     region = frame.bounds if region is None else region
+    check_numbers(region, "region")
     values = _source_values(sources, frame, region)
     previous = values.get(SOURCE, FilterValue(np.zeros(shape), False, region))
     if not steps:
