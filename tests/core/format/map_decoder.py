@@ -48,13 +48,14 @@ def read_programs(words: np.ndarray, first: int, parts: list[int], runs: dict) -
             kind, rest = divmod(int(words[row, 3]), 1 << 29)
             size = {0: 3, 1: 1, 2: 1, 3: 2, 4: 3, 5: 1, 6: 1}.get(kind, 0)
             texels = words[row : row + size].astype(np.uint32)
-            need(size and row + size <= at and (texels[1:, 3] == 7 << 29).all(), "operation")
+            need(size and row + size <= at, "operation")
             place = row + (rest & 0x7FFFF) - first - count
             if kind == 0:
                 picture = check_picture(texels, first_pixel - row, pixels)
                 pictures.add(picture)
-                place = picture[0]
+                place = picture.first
             else:
+                need((texels[1:, 3] == 7 << 29).all(), "operation")
                 check_operation(kind, rest, texels, first + count - row, first + count + stops - row, words[row:])
             opened += (kind == 5) - (kind == 6)
             need(0 <= opened <= 3, "groups")

@@ -64,7 +64,7 @@ def test_it_shows_pictures(name: str) -> None:
 def test_levels_are_means() -> None:
     _, _, (planar,) = map_decoder.read_maps(run(PICTURES["photo"], Parameters("faces")).texture.to_ktx2())
     pixels = PICTURES["photo"].paths[0].paint.picture.pixels
-    levels = picture_decoder.read_levels(planar.pixels, (pixels.shape[1], pixels.shape[0]))
+    levels, _ = picture_decoder.read_levels(planar.pixels, (pixels.shape[1], pixels.shape[0]))
     assert [level.shape[:2] for level in levels] == [(7, 9), (4, 5), (2, 3), (1, 2), (1, 1)]
     np.testing.assert_array_equal(levels[0], pixels)
     for k, level in enumerate(levels):
@@ -127,7 +127,7 @@ def test_the_example_of_a_picture_is_what_it_says() -> None:
     half = 128 / 255
     wanted = [(1, 0, 0, 1), (0.5, 0, half / 2, (1 + half) / 2), (0, 0, half, half)]
     np.testing.assert_allclose(found, wanted)
-    levels = picture_decoder.read_levels(words[3:], (2, 1))
+    levels, _ = picture_decoder.read_levels(words[3:], (2, 1))
     assert levels[1].tolist() == [[[128, 0, 64, 192]]]
     drawing = Drawing((painted_path(SQUARE, Paint.from_picture(Picture(((2, 0, 0), (0, -1, 1)), PIXELS))),))
     flat = run(drawing, Parameters("faces")).texture.flat
