@@ -1,15 +1,15 @@
-"""Gaussian blurs as paints: shadows of drawings, and drawings out of focus."""
+"""Gaussian blurs as paints: shadows of drawings, and drawings out of focus.
+
+A drawing has no type here, as it has paints itself.
+"""
 
 from copy import copy
 from dataclasses import dataclass
 from math import ceil, isfinite
-from typing import TYPE_CHECKING, Final
+from typing import Any, Final
 
 from vexture.base.errors import SourceError
 from vexture.drawing.affine import Affine, compose_affine
-
-if TYPE_CHECKING:
-    from vexture.drawing.drawing import Drawing
 
 Window = tuple[float, float, float, float]
 """Least x and y, greatest x and y."""
@@ -47,7 +47,7 @@ class Blur:
         True if colours are blurred in linear light; only with `has_colors`.
     """
 
-    source: "Drawing"
+    source: Any
     to_source: Affine
     deviations: tuple[float, float]
     window: Window

@@ -7,6 +7,7 @@ from math import isfinite
 from vexture.base.errors import SourceError
 from vexture.drawing.affine import Affine, compose_affine
 from vexture.drawing.blur import Blur
+from vexture.drawing.effect import Effect
 from vexture.drawing.picture import Picture
 
 Color = tuple[float, float, float]
@@ -73,8 +74,8 @@ class Gradient:
 class Paint:
     """A flat colour, as sRGB components and opacity in 0..1, or a gradient or picture with its mean as the flat colour.
 
-    Renderers without gradients show the flat colour. A paint has only one of a gradient, a picture and a blur. A blur
-    uses the flat colour, or only its opacity (see `Blur`).
+    Renderers without gradients show the flat colour. A paint has only one of a gradient, a picture, a blur and an
+    effect. A blur uses the flat colour, or only its opacity (see `Blur`), and an effect only its opacity.
     """
 
     color: Color = (0.0, 0.0, 0.0)
@@ -82,6 +83,7 @@ class Paint:
     gradient: Gradient | None = None
     picture: Picture | None = None
     blur: Blur | None = None
+    effect: Effect | None = None
 
     def __post_init__(self) -> None:
         if not all(0.0 <= part <= 1.0 for part in (*self.color, self.opacity)):
@@ -116,7 +118,7 @@ class Paint:
         if gradient is not None:
             stops = tuple(replace(stop, opacity=opacity * stop.opacity) for stop in gradient.stops)
             gradient = replace(gradient, stops=stops)
-        return Paint(self.color, opacity * self.opacity, gradient, picture, self.blur)
+        return Paint(self.color, opacity * self.opacity, gradient, picture, self.blur, self.effect)
 
     def after(self, matrix: Affine) -> "Paint":
         """Return the paint in new coordinates; `matrix` maps the new ones to the old ones."""
@@ -124,19 +126,26 @@ class Paint:
             return replace(self, picture=self.picture.after(matrix))
         if self.blur is not None:
             return replace(self, blur=self.blur.after(matrix))
+        if self.effect is not None:
+            return replace(self, effect=self.effect.after(matrix))
         return self if self.gradient is None else replace(self, gradient=self.gradient.after(matrix))
 
     @property
     def is_varied(self) -> bool:
         """True if the colour differs from point to point: a gradient, a picture or a blur."""
-        return self.gradient is not None or self.picture is not None or self.blur is not None
+        return self.gradient is not None or self.picture is not None or self.is_soft
+
+    @property
+    def is_soft(self) -> bool:
+        """True for a blur or an effect, which depend on other drawings."""
+        return self.blur is not None or self.effect is not None
 
     @property
     def is_opaque(self) -> bool:
         """True if nothing below shows through any part of the paint."""
         if self.picture is not None:
             return self.picture.is_opaque
-        if self.blur is not None:
+        if self.is_soft:
             return False
         if self.gradient is None:
             return self.opacity >= 1.0

@@ -68,7 +68,8 @@ class Picture:
             or not (min(shape[:2]) > 0 and max(shape[:2]) <= MOST_PICTURE_SIDE)
         ):
             raise SourceError(
-                f"a picture has the shape {shape}; it needs 1 to {MOST_PICTURE_SIDE:,} rows and columns of RGBA or of opacities"
+                f"a picture has the shape {shape}; it needs 1 to {MOST_PICTURE_SIDE:,} rows and columns of RGBA, "
+                "or of opacities"
             )
         if self.pixels.dtype != np.uint8 or (self.pixels[..., :-1] > self.pixels[..., -1:]).any():
             raise SourceError("a picture's pixels are not premultiplied bytes")
