@@ -30,7 +30,8 @@ SHARED_OPACITY: Final = "opacity of a group, which each of its shapes has by its
 BLENDING, MASKING, SHADED = "mix-blend-mode", "clip-path or mask", "gradient shown as its mean colour"
 PICTURED: Final = "picture shown as its mean colour"
 SOLID: Final = "pattern shown as solid"
-"""Notes on what layers and silhouettes lose: neither has groups, and layers have no gradients either."""
+SOFTENED: Final = "blur or effect, which has no outline"
+"""Notes on what layers and silhouettes lose: neither has groups or soft paints, and layers have no gradients."""
 
 IDENTITY = np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
 
@@ -241,11 +242,13 @@ class Drawing:
         )
 
     def flat(self) -> "Drawing":
-        """Return the drawing without groups, masks, gradients and pictures.
+        """Return the drawing without groups, masks, gradients, pictures and soft paints.
 
         Each path gets the opacities of the groups around it, and a shape filled with a pattern becomes solid. Notes
         list what a picture of the result lacks.
         """
+        if any(path.paint.is_soft for path in self.paths):
+            return self.without_softness().flat()
         opacities, hidden = {-1: 1.0}, set[int]()
         patterns = {place for place, group in enumerate(self.groups) if group.pattern}
         for place, group in enumerate(self.groups):
@@ -260,12 +263,24 @@ class Drawing:
         return replace(self, paths=paths, groups=(), notes=(*self.notes, *self._lost()))
 
     def without_masks(self) -> "Drawing":
-        """Return the drawing without its masks, for its silhouette; a note counts the masks if there are any."""
+        """Return the drawing without its masks and soft paints, for its silhouette; notes count them."""
+        if any(path.paint.is_soft for path in self.paths):
+            return self.without_softness().without_masks()
         if not any(group.mask for group in self.groups):
             return self
         plain = self.flat()
         lost = tuple(note for note in plain.notes[len(self.notes) :] if note.message in (MASKING, SOLID))
         return replace(plain, notes=(*self.notes, *lost))
+
+    def without_softness(self) -> "Drawing":
+        """Return the drawing without blurs, effects and all that they mask; a note counts their paths."""
+        soft = [path for path in self.paths if path.paint.is_soft]
+        masks = {place for path in soft for place in self.around(path.group) if self.groups[place].mask}
+        hidden = {self.groups[mask].outer for mask in masks}
+        clear = (path for path in self.paths if not path.paint.is_soft)
+        paths = tuple(path for path in clear if hidden.isdisjoint(self.around(path.group)))
+        notes = (Note("left out", SOFTENED, len(soft)),) if soft else ()
+        return replace(self, paths=paths, notes=(*self.notes, *notes))
 
     def _lost(self) -> Iterator[Note]:
         """Yield notes on what layers lose of groups and gradients; the opacity of a group of one path is not lost."""
@@ -280,15 +295,8 @@ class Drawing:
         masks = sum(group.mask is not Mask.NONE for group in self.groups) - patterns
         shaded = sum(path.paint.gradient is not None for path in self.paths)
         pictured = sum(path.paint.picture is not None for path in self.paths)
-        counts = (
-            (SHARED_OPACITY, shared),
-            (BLENDING, blended),
-            (MASKING, masks),
-            (SOLID, patterns),
-            (SHADED, shaded),
-            (PICTURED, pictured),
-        )
-        for message, count in counts:
+        messages = SHARED_OPACITY, BLENDING, MASKING, SOLID, SHADED, PICTURED
+        for message, count in zip(messages, (shared, blended, masks, patterns, shaded, pictured), strict=True):
             if count:
                 yield Note("simplified", message, count)
 

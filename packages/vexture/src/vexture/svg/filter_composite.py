@@ -5,13 +5,14 @@ from typing import Final
 
 from vexture.drawing.blur import REACH, Blur
 from vexture.drawing.drawing import Path
-from vexture.drawing.group import Blend, Group, Mask
+from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Paint
 from vexture.svg.compositing import Box, meet
 from vexture.svg.filter_colors import recolor_paint
 from vexture.svg.filter_content import (
     Content,
     FilterLimitError,
+    blend_group,
     flood,
     holds,
     is_rectangle,
@@ -101,14 +102,14 @@ def add_light(upper: Content, lower: Content) -> Content:
     box, other = upper.box, lower.box
     if box is None or other is None or not meet(box, other):
         return stack([lower, upper])
-    return stack([lower, upper.inside(Group(blend=Blend.PLUS_LIGHTER))]).inside(Group())
+    return blend_group(upper, lower, Blend.PLUS_LIGHTER)
 
 
 def blend(upper: Content, lower: Content, mode: Blend) -> Content:
     """Return the first content blended onto the second one."""
     if mode is Blend.NORMAL or not upper.paths or not lower.paths:
         return stack([lower, upper])
-    return stack([lower, upper.inside(Group(blend=mode))]).inside(Group())
+    return blend_group(upper, lower, mode)
 
 
 def composite(upper: Content, lower: Content, operator: str) -> Content:

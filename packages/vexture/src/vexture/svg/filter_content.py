@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 from typing import Final
 
@@ -17,7 +18,7 @@ from vexture.svg.gradients import rows
 from vexture.svg.outline import ShapeOutline
 from vexture.svg.transform import Identity, Transform, map_points
 
-MOST_PATHS: Final = 20_000
+MOST_PATHS: Final = 10_000
 """Most paths of the content of one step."""
 
 SLIVER: Final = 1e-3
@@ -34,20 +35,14 @@ class FilterLimitError(Exception):
     """A filter that cannot be drawn; the message says why."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Content:
     """Paths and groups, as those of a drawing."""
 
     paths: tuple[Path, ...] = ()
     groups: tuple[Group, ...] = ()
 
-    def check(self) -> "Content":
-        """Return the content; raise a `FilterLimitError` if it has too many paths."""
-        if len(self.paths) > MOST_PATHS:
-            raise FilterLimitError(f"a step has {len(self.paths):,} paths; the limit is {MOST_PATHS:,}")
-        return self
-
-    @property
+    @cached_property
     def visible(self) -> list[Path]:
         """Paths that are no part of a mask and not fully transparent."""
         masks = masking(self.groups)
@@ -57,12 +52,12 @@ class Content:
             if path.contours and path.paint.opacity > 0.0 and not (path.group >= 0 and masks[path.group])
         ]
 
-    @property
+    @cached_property
     def boxes(self) -> list[Box]:
         """Boxes of the visible paths: left, top, right and bottom."""
         return [box_of(path) for path in self.visible]
 
-    @property
+    @cached_property
     def box(self) -> Box | None:
         """Box around everything visible; None if nothing is."""
         boxes = self.boxes
@@ -71,7 +66,7 @@ class Content:
         (left, top), (right, bottom) = np.min(boxes, axis=0)[:2].tolist(), np.max(boxes, axis=0)[2:].tolist()
         return left, top, right, bottom
 
-    @property
+    @cached_property
     def overlaps(self) -> bool:
         """True if two visible paths may overlap."""
         boxes = self.boxes
@@ -191,6 +186,12 @@ class Content:
         return Content((*masks, *shown), (Group(), *inner, *groups))
 
 
+def check_count(paths: int) -> None:
+    """Raise a `FilterLimitError` if a content has too many paths."""
+    if paths > MOST_PATHS:
+        raise FilterLimitError(f"a step has {paths:,} paths or more; the limit is {MOST_PATHS:,}")
+
+
 def box_of(path: Path) -> Box:
     """Return the bounding box of a path with contours."""
     return bounds(np.concatenate(path.contours))
@@ -214,15 +215,24 @@ def put_inside(content: Content, group: Group, count: int) -> tuple[tuple[Path, 
 
 def stack(contents: Iterable[Content]) -> Content:
     """Return contents painted on one another, from the lowest."""
+    return join(content.isolated for content in contents)
+
+
+def blend_group(upper: Content, lower: Content, mode: Blend) -> Content:
+    """Return a content blended onto another one."""
+    return join([lower.isolated, upper.inside(Group(blend=mode))]).inside(Group())
+
+
+def join(contents: Iterable[Content]) -> Content:
+    """Return contents after one another."""
     paths: list[Path] = []
     groups: list[Group] = []
     for content in contents:
-        more, inner = shift_groups(content.isolated, len(groups), -1)
+        check_count(len(paths) + len(content.paths))
+        more, inner = shift_groups(content, len(groups), -1)
         paths += more
         groups += inner
-        if len(paths) > MOST_PATHS:
-            break
-    return Content(tuple(paths), tuple(groups)).check()
+    return Content(tuple(paths), tuple(groups))
 
 
 def flood(box: Box, paint: Paint, element: str = "") -> Content:

@@ -8,6 +8,7 @@ from typing import Final, Protocol
 
 from lxml import etree
 
+from vexture.base.deadline import check_time
 from vexture.drawing.paint import Paint
 from vexture.svg.compositing import Box
 from vexture.svg.document import local_name
@@ -138,12 +139,15 @@ class FilterGraph:
         steps = [FilterStep(self, child, k) for k, child in enumerate(filter(is_step, self.element))]
         last = len(steps) - 1
         for step in needed_steps(steps):
-            self.subject.scene.sources.spend(1 + len(self.source.paths))
             primitive = primitives.get(step.name)
             if primitive is None:
                 raise FilterLimitError("")
+            check_time()
             region = step.region
-            self.results[step.index] = StepResult(primitive(step).cut(meeting(region, self.region)), region)
+            seen = meeting(region, self.region)
+            content = Content() if seen is None else primitive(step).cut(seen)
+            self.subject.scene.sources.spend(1 + len(content.paths))
+            self.results[step.index] = StepResult(content, region)
         return self.results[last].content
 
     def region_of(self, by_box: bool) -> Box:

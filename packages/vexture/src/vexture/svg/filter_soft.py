@@ -9,6 +9,9 @@ from vexture.drawing.paint import Color, Paint
 from vexture.svg.compositing import Box, drop_empty_groups
 from vexture.svg.filter_content import MOST_PATHS, Content, FilterLimitError, flood, meeting
 
+SHARP: Final = 2e-5
+"""Deviation, in sizes of the content, up to which nothing is blurred."""
+
 THIN: Final = 1 / 256
 """Deviation across a direction that is not blurred, as a share of the size of the content."""
 
@@ -17,8 +20,8 @@ ONE_WAY: Final = "a blur in one direction is a little blurred in the other one, 
 MOST_NESTED: Final = 6
 """Most blurs of blurs inside one another."""
 
-MOST_SPENT: Final = 500_000
-"""Most paths that the steps of all filters of a drawing may read, each time anew."""
+MOST_SPENT: Final = 100_000
+"""Most paths that the steps of all filters of a drawing may have, those of each step anew."""
 
 FARTHEST: Final = 1e6
 """Largest deviation in sizes of the content. Then nothing of it is seen."""
@@ -42,6 +45,9 @@ def blur_content(
         return content
     width, height = box[2] - box[0], box[3] - box[1]
     size = max(width, height)
+    deviations = (deviations[0] * (deviations[0] > SHARP * size), deviations[1] * (deviations[1] > SHARP * size))
+    if max(deviations) <= 0.0:
+        return content
     if min(width, height) <= 0.0 or max(deviations) > FARTHEST * size:
         return Content()
     thin = THIN * min(size, max(deviations) * REACH)
@@ -96,13 +102,13 @@ class Sources:
 
     def __init__(self) -> None:
         self.known: dict[int, tuple[Drawing, int, int]] = {}
-        self.spent = 0  # paths that the steps of filters have read
+        self.spent = 0  # paths of all steps so far
 
     def spend(self, count: int) -> None:
         """Count paths; raise a `FilterLimitError` if there are too many."""
         self.spent += count
         if self.spent > MOST_SPENT:
-            raise FilterLimitError(f"filters read more than {MOST_SPENT:,} paths; draw fewer")
+            raise FilterLimitError(f"the steps of all filters have {self.spent:,} paths; the limit is {MOST_SPENT:,}")
 
     def check(self, drawing: Drawing) -> None:
         """Raise a `FilterLimitError` if a source has too many blurs, or too many inside one another."""

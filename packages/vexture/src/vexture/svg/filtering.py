@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 from lxml import etree
 
 from vexture.svg.compositing import Veil, group_paths
-from vexture.svg.filter_content import Content, FilterLimitError
+from vexture.svg.filter_content import Content, FilterLimitError, check_count
 from vexture.svg.filter_graph import FilterGraph, FilterScene, Subject
 from vexture.svg.filter_primitives import PRIMITIVES
 from vexture.svg.filters import filter_elements, filter_label
@@ -19,7 +19,7 @@ from vexture.svg.space import ElementPlace, PlacedElement, Space
 from vexture.svg.style import ElementStyle
 from vexture.svg.values import TooLargeError
 
-DEEPEST: Final = 32
+DEEPEST: Final = 12
 """Deepest nesting of elements with filters."""
 
 MARGIN: Final = 0.5
@@ -62,7 +62,8 @@ def paint_filtered(
     content = source = content_of(scene, place, painter, paint)
     subject = Subject(scene, element, place)
     try:
-        scene.sources.spend(len(source.check().paths))
+        check_count(len(source.paths))
+        scene.sources.spend(len(source.paths))
         for each in filters:
             content = FilterGraph(each, subject, content).run(PRIMITIVES)
     except (FilterLimitError, TooLargeError) as error:
@@ -87,12 +88,14 @@ def content_of(scene: FilterScene, place: ElementPlace, painter: Painter, paint:
         own.canvas = replace(painter.canvas, frame=frame)
     scene.walk([*reversed(paint(free, own))], own)
     painter.segments = own.segments
+    painter.filtered += zip(own.paths, own.places, strict=True)
     paths, groups = group_paths(own.paths, own.veils)
     return Content(tuple(paths), groups).move(whole.inverse())
 
 
 def paint_content(content: Content, place: ElementPlace, painter: Painter) -> None:
-    """Paint a content at a place, whose viewports cut it."""
+    """Paint a content at a place, whose viewports cut it; notes show what it was before."""
+    place = replace(place, masks=max(place.masks, 1))
     to_user = rows(place.space.whole.inverse())
     veils: dict[int, Veil | None] = {-1: place.veil}
     for at, group in enumerate(content.groups):

@@ -19,15 +19,15 @@ Boxes = dict[etree._Element, NDArray[np.float64]]
 """Bounding boxes of what elements paint, (2, 2) each, in the coordinates of the paths."""
 
 
-def boxes_of(elements: Collection[etree._Element], paths: Iterable[Path], places: Iterable[ElementPlace]) -> Boxes:
-    """Return the boxes of what elements paint; `paths` are the drawing's, and `places` those of each path.
+def boxes_of(elements: Collection[etree._Element], painted: Iterable[tuple[Path, ElementPlace]]) -> Boxes:
+    """Return the boxes of what elements paint: paths in the drawing's coordinates, each with its place.
 
     Content that an element shows as a clip, marker, mask or pattern of another one does not count.
     """
     boxes: Boxes = {}
     if not elements:
         return boxes
-    for path, innermost in zip(paths, places, strict=True):
+    for path, innermost in painted:
         place: ElementPlace | None = None if innermost.masks else innermost
         while place is not None:
             if place.element in elements:

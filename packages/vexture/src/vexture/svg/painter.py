@@ -59,6 +59,7 @@ class Painter:
         self.paths: list[Path] = []
         self.veils: list[Veil | None] = []
         self.places: list[ElementPlace] = []
+        self.filtered: list[tuple[Path, ElementPlace]] = []  # paths before filters, for the boxes of notes
         self.segments: int = 0
 
     def paint(self, element: etree._Element, place: ElementPlace, markers: Iterable[list[PlacedElement]] = ()) -> None:

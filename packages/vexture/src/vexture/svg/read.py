@@ -16,6 +16,7 @@ from vexture.base.errors import ParameterError, SourceError
 from vexture.base.notes import Note, warn_of
 from vexture.drawing.drawing import Drawing
 from vexture.fonts.places import font_places
+from vexture.svg.blur_budget import fit_blurs
 from vexture.svg.compositing import drop_empty_groups, has_colors
 from vexture.svg.document import parse_svg
 from vexture.svg.frames import EMPTY, Frame, frame, painted_frame
@@ -200,8 +201,9 @@ def read_document(request: Request) -> ReadResult:
         scene = SvgScene(root, report, request.images, elements, request.names, request.fonts, request.page)
         framed = painted_frame(scene) if part is not None and part.is_unframed else frame(scene)
         drawing, to_pixels = drawing_of(scene, framed, request.name)
-        paths = fit_into_budget(drawing.paths, [*request.images.shown.values()], report)
-        drawing = replace(drawing, paths=paths)
+        paths, groups = drop_empty_groups(fit_blurs(drawing.paths, report), drawing.groups)
+        paths = fit_into_budget(paths, [*request.images.shown.values()], report)
+        drawing = replace(drawing, paths=paths, groups=groups)
     except RecursionError:  # tinycss2 and cssselect2 recurse into brackets
         raise SourceError("its style sheet nests brackets too deeply; simplify it") from None
     if scene.servers.cascade.reveals:

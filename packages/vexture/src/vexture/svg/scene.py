@@ -119,7 +119,8 @@ class SvgScene:
         called = self.names.of(self.root)
         place = ElementPlace(viewport, Space(), self.style, self.root, chosen=chosen, name=called)
         self.walk(self.inside_root(place, painter, matrix, frame, size), painter)
-        self.boxes = boxes_of(self.report.elements, painter.paths, painter.places)
+        plain = zip(painter.paths, painter.places, strict=True)
+        self.boxes = boxes_of(self.report.elements, [*plain, *painter.filtered])
         return group_paths(painter.paths, painter.veils)
 
     def inside_root(

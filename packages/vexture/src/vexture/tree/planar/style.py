@@ -94,7 +94,9 @@ def round_colours(rgba: Any) -> NDArray[np.float64]:
 
 
 def restylable(drawing: Drawing) -> Drawing:
-    """Replace gradients and pictures by their mean colours; notes give their numbers."""
+    """Replace gradients and pictures by their mean colours, and drop soft paints; notes give their numbers."""
+    if any(path.paint.is_soft for path in drawing.paths):
+        return restylable(drawing.without_softness())
     shaded = sum(path.paint.gradient is not None for path in drawing.paths)
     pictured = sum(path.paint.picture is not None for path in drawing.paths)
     notes = [Note("simplified", text, count) for text, count in ((SHADED, shaded), (PICTURED, pictured)) if count]
