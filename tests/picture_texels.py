@@ -14,6 +14,8 @@ LINES = 192  # scanlines between two rows of pixels
 
 def level_of(pixels: NDArray[np.uint8], k: int) -> NDArray[np.uint8]:
     """Level k of a picture: each pixel is the mean of those among 2^k x 2^k that exist."""
+    if k == 0:
+        return pixels
     side = 1 << k
     rows, columns = (-(-size // side) for size in pixels.shape[:2])
     found = np.zeros((rows, columns, 4), np.uint8)

@@ -61,7 +61,7 @@ LONG: Final = 2.0**-8
 """Least area that determines the finest cells, relative to the square of a footprint's length: bounds thin ones."""
 
 LEVEL_BIAS: Final = 2.0**-8
-"""Relative reduction of an area; without it, drivers would disagree on the level if its size is a power of two."""
+"""Relative reduction of a size; without it, drivers would disagree on the level or parts if it is at the limit."""
 
 GAUSS: Final = 0.5 / 3.0**0.5
 """Distance of the two points of Gauss-Legendre quadrature from the middle of an interval, relative to its length."""

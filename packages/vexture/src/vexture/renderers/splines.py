@@ -8,6 +8,7 @@ from vexture.drawing.picture import Sampling
 from vexture.renderers.cells import Texels, Vec2, clamp
 from vexture.renderers.method import (
     LEAST_SPLINE_BOX,
+    LEVEL_BIAS,
     MOST_SPLINE_BOXES,
     NOTHING,
     SLANTED_PART,
@@ -116,7 +117,7 @@ def box_mean(texels: Texels, level: VextureLevel, middle: Vec2, sides: Vec2) -> 
 
 
 @kernel(allocates=False)
-def widened(right: Vec2, up: Vec2) -> Vec4:
+def widen(right: Vec2, up: Vec2) -> Vec4:
     right_size, up_size = right[0] * right[0] + right[1] * right[1], up[0] * up[0] + up[1] * up[1]
     longer = max(right_size, up_size)
     area = max(abs(right[0] * up[1] - right[1] * up[0]), max(THINNEST_PIXEL * longer, NOTHING))
@@ -137,7 +138,7 @@ def widened(right: Vec2, up: Vec2) -> Vec4:
 @kernel(allocates=False)
 def slanted_parts(side: Vec2) -> int:
     """Return one of the two numbers of parts of `spline_mean`, which GLSL computes as a vector; at most too many."""
-    slant = math.sqrt(abs(side[0] * side[1])) / SLANTED_PART
+    slant = (1.0 - LEVEL_BIAS) * math.sqrt(abs(side[0] * side[1])) / SLANTED_PART
     return max(math.ceil(slant), 1) if slant <= MOST_SPLINE_BOXES else MOST_SPLINE_BOXES + 1
 
 
@@ -148,14 +149,14 @@ def spline_mean(texels: Texels, level: VextureLevel, middle: Vec2, right: Vec2, 
     a, b = (right[0] / parts[0], right[1] / parts[0]), (up[0] / parts[1], up[1] / parts[1])
     sides = (math.sqrt(a[0] * a[0] + b[0] * b[0]), math.sqrt(a[1] * a[1] + b[1] * b[1]))
     number = parts[0] * parts[1]
-    if number <= MOST_SPLINE_BOXES and max(sides[0], sides[1]) <= WIDEST_SPLINE_BOX:
+    if number <= MOST_SPLINE_BOXES and (1.0 - LEVEL_BIAS) * max(sides[0], sides[1]) <= WIDEST_SPLINE_BOX:
         sides, sum = (max(sides[0], LEAST_SPLINE_BOX), max(sides[1], LEAST_SPLINE_BOX)), (0.0, 0.0, 0.0, 0.0)
         for k in range(number):
             x, y = k % parts[0] + 0.5 - 0.5 * parts[0], k // parts[0] + 0.5 - 0.5 * parts[1]
             place = (middle[0] + x * a[0] + y * b[0], middle[1] + x * a[1] + y * b[1])
             sum = plus(sum, box_mean(texels, level, place, sides), 1.0 / number)
         return sum
-    wide = widened(right, up)
+    wide = widen(right, up)
     return picture_mean(texels, level, True, middle, (wide[0], wide[1]), (wide[2], wide[3]), share)
 
 

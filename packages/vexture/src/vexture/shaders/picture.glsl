@@ -8,8 +8,8 @@
 //
 // VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
 // needed is left out, because it takes registers.
-// Exports: VextureLevel, vexture_block, vexture_first_level, vexture_pixel, vexture_pixels_at, vexture_sum_pixels,
-// vexture_picture_mean.
+// Exports: VextureLevel, vexture_first_level, vexture_picture_mean, vexture_pixel.
+// Exports to spline.glsl: vexture_block, vexture_pixels_at, vexture_sum_pixels.
 #include "tree.glsl"
 
 #ifndef VEXTURE_GRADIENTS

@@ -52,7 +52,7 @@ vec4 vexture_weighted_block(VextureLevel level, int i, int j, vec4 columns, vec4
 
 // Mean over an upright box, given by its middle and its sides.
 vec4 vexture_box_mean(VextureLevel level, vec2 middle, vec2 sides) {
-    middle = clamp(middle, -VEXTURE_WIDEST_SPLINE_BOX, vec2(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
+    middle = min(max(middle, -VEXTURE_WIDEST_SPLINE_BOX), vec2(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
     vec2 origin = floor(middle);
     vec2 low = middle - origin - 0.5 * sides;
     vec2 high = low + sides;
@@ -76,7 +76,7 @@ vec4 vexture_box_mean(VextureLevel level, vec2 middle, vec2 sides) {
 }
 
 // The two sides of a parallelogram, in columns and rows, with the variances of another one and 1/6 more in each direction.
-vec4 vexture_widened(vec2 right, vec2 up) {
+vec4 vexture_widen(vec2 right, vec2 up) {
     float longer = max(dot(right, right), dot(up, up));
     float area = max(abs(right.x * up.y - right.y * up.x), max(VEXTURE_THINNEST_PIXEL * longer, VEXTURE_NOTHING));
     float inverse = 2.0 / (area * area);
@@ -90,11 +90,12 @@ vec4 vexture_widened(vec2 right, vec2 up) {
 
 // Mean of a spline, 0..255, over a parallelogram; parameters as of vexture_picture_mean.
 vec4 vexture_spline_mean(VextureLevel level, vec2 middle, vec2 right, vec2 up, float share) {
-    vec2 slants = sqrt(abs(vec2(right.x * right.y, up.x * up.y)));
+    float less = 1.0 - VEXTURE_LEVEL_BIAS;
+    vec2 slants = less * sqrt(abs(vec2(right.x * right.y, up.x * up.y)));
     vec2 parts = max(ceil(slants / VEXTURE_SLANTED_PART), 1.0);
     vec2 sides = sqrt(right * right / (parts.x * parts.x) + up * up / (parts.y * parts.y));
     bool is_small = parts.x * parts.y <= float(VEXTURE_MOST_SPLINE_BOXES);
-    if (is_small && max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
+    if (is_small && less * max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
         sides = max(sides, VEXTURE_LEAST_SPLINE_BOX);
         int across = int(parts.x);
         int number = across * int(parts.y);
@@ -105,7 +106,7 @@ vec4 vexture_spline_mean(VextureLevel level, vec2 middle, vec2 right, vec2 up, f
         }
         return sum / float(number);
     }
-    vec4 widened = vexture_widened(right, up);
+    vec4 widened = vexture_widen(right, up);
     return vexture_picture_mean(level, true, middle, widened.xy, widened.zw, share);
 }
 

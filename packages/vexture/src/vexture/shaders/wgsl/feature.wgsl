@@ -382,8 +382,8 @@ fn vexture_blended(below: vec4f, above: vec4f, mode: u32) -> vec4f {
 //
 // VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
 // needed is left out, because it takes registers.
-// Exports: VextureLevel, vexture_block, vexture_first_level, vexture_pixel, vexture_pixels_at, vexture_sum_pixels,
-// vexture_picture_mean.
+// Exports: VextureLevel, vexture_first_level, vexture_picture_mean, vexture_pixel.
+// Exports to spline.glsl: vexture_block, vexture_pixels_at, vexture_sum_pixels.
 
 #if VEXTURE_GRADIENTS == 2
 
@@ -732,7 +732,7 @@ fn vexture_weighted_block(
 // Mean over an upright box, given by its middle and its sides.
 fn vexture_box_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, middle_given: vec2f, sides: vec2f) -> vec4f {
     var middle = middle_given;
-    middle = clamp(middle, vec2f(-VEXTURE_WIDEST_SPLINE_BOX), vec2f(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
+    middle = min(max(middle, vec2f(-VEXTURE_WIDEST_SPLINE_BOX)), vec2f(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
     let origin: vec2f = floor(middle);
     let low: vec2f = middle - origin - 0.5 * sides;
     let high: vec2f = low + sides;
@@ -756,7 +756,7 @@ fn vexture_box_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, middle_
 }
 
 // The two sides of a parallelogram, in columns and rows, with the variances of another one and 1/6 more in each direction.
-fn vexture_widened(right: vec2f, up: vec2f) -> vec4f {
+fn vexture_widen(right: vec2f, up: vec2f) -> vec4f {
     let longer: f32 = max(dot(right, right), dot(up, up));
     let area: f32 = max(abs(right.x * up.y - right.y * up.x), max(VEXTURE_THINNEST_PIXEL * longer, VEXTURE_NOTHING));
     let inverse: f32 = 2.0 / (area * area);
@@ -772,11 +772,12 @@ fn vexture_widened(right: vec2f, up: vec2f) -> vec4f {
 fn vexture_spline_mean(
     vextureTexels: texture_2d<u32>, level: VextureLevel, middle: vec2f, right: vec2f, up: vec2f, share: f32,
 ) -> vec4f {
-    let slants: vec2f = sqrt(abs(vec2f(right.x * right.y, up.x * up.y)));
+    let less: f32 = 1.0 - VEXTURE_LEVEL_BIAS;
+    let slants: vec2f = less * sqrt(abs(vec2f(right.x * right.y, up.x * up.y)));
     let parts: vec2f = max(ceil(slants / VEXTURE_SLANTED_PART), vec2f(1.0));
     var sides: vec2f = sqrt(right * right / (parts.x * parts.x) + up * up / (parts.y * parts.y));
     let is_small: bool = parts.x * parts.y <= f32(VEXTURE_MOST_SPLINE_BOXES);
-    if (is_small && max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
+    if (is_small && less * max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
         sides = max(sides, vec2f(VEXTURE_LEAST_SPLINE_BOX));
         let across: i32 = i32(parts.x);
         let number: i32 = across * i32(parts.y);
@@ -787,7 +788,7 @@ fn vexture_spline_mean(
         }
         return sum / f32(number);
     }
-    let widened: vec4f = vexture_widened(right, up);
+    let widened: vec4f = vexture_widen(right, up);
     return vexture_picture_mean(vextureTexels, level, true, middle, widened.xy, widened.zw, share);
 }
 #endif
