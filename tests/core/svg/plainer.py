@@ -1,5 +1,6 @@
 """One-issue fixtures that PyPI's resvg does not know, in words that it and we understand alike."""
 
+import numpy as np
 from plainer_styles import STYLES
 
 ARROW = '<path d="M0 0L10 5L0 10z" fill="red"/>'
@@ -43,6 +44,22 @@ def gradient_page(line: str, *stops: tuple[float, str], kind: str = "linear") ->
     )
 
 
+def light_stops(
+    first: str, last: str, low: float = 0.0, high: float = 1.0, opacity: tuple[float, float] = (1, 1)
+) -> str:
+    """Very many stops of a gradient in linear light (IEC 61966-2-1) between two colours in hexadecimal notation."""
+    ends = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in (first, last)]) / 255
+    light = np.where(ends <= 0.04045, ends / 12.92, ((ends + 0.055) / 1.055) ** 2.4)
+    t = np.linspace(0.0, 1.0, 200)
+    colors = (1.0 - t)[:, None] * light[0] + t[:, None] * light[1]
+    colors = 100 * np.where(colors <= 0.0031308, 12.92 * colors, 1.055 * colors ** (1 / 2.4) - 0.055)
+    return "".join(
+        f'<stop offset="{low + at * (high - low)}" stop-opacity="{opacity[0] + at * (opacity[1] - opacity[0])}"'
+        f' stop-color="rgb({red}% {green}% {blue}%)"/>'
+        for at, (red, green, blue) in zip(t.tolist(), colors.tolist(), strict=True)
+    )
+
+
 def box() -> str:
     """The rectangle of the animated fixtures."""
     return '<rect x="20" y="30" width="40" height="30" fill="#208040"/>'
@@ -51,6 +68,13 @@ def box() -> str:
 CORNER = '<path d="M80 80h15v15z" fill="#fc8"/>'
 
 PLAINER = {
+    # gradients in linear light, which resvg does not know, as ones of very many stops
+    "gradients/linear-light": f"""<linearGradient id="g">{light_stops("#000000", "#ffa040", 0.0, 0.6)}{
+        light_stops("#ffa040", "#004080", 0.6, 1.0, (1.0, 0.5))
+    }</linearGradient><rect width="100" height="100" fill="url(#g)"/>""",
+    "gradients/linear-light-inherited": f"""<radialGradient id="b">{light_stops("#ffffff", "#400000")}</radialGradient>
+    <radialGradient id="c"><stop stop-color="white"/><stop offset="1" stop-color="#400000"/></radialGradient>
+    <rect width="50" height="100" fill="url(#b)"/><rect x="50" width="50" height="100" fill="url(#c)"/>""",
     # drawings without their animations, which PyPI's resvg runs neither; what only an animation shows is seen
     "animation/at-rest": box() + CORNER,
     "animation/fades-in": f'<g opacity="0.5">{box()}</g>',

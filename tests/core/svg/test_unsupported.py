@@ -30,8 +30,6 @@ SAID = {
     "gradient-mesh": "left out: gradient mesh",
     "hatch": "left out: hatch",
     "html": "left out: <p> in line 2, of another namespace",
-    "linear-light": "simplified: gradient in linear light (color-interpolation) read as one in sRGB, "
-    "mask in linear light (color-interpolation) read as one in sRGB",
     "flowed-text": "left out: shape-inside of a text",
     "functions": "left out: device-cmyk() in fill, env() in stroke-width; "
     "invalid and ignored: opacity='foo(3)' of <rect id=\"a\"> in line 2",
@@ -43,6 +41,7 @@ SAID = {
     "marker": "left out: marker-start 'url(#none)', marker-start that refers to itself, of <marker id=\"c\"> in line 2;"
     " invalid and ignored: markerWidth='-3' of <marker id=\"c\"> in line 2",
     "mask": "left out: mask 'url(stars.svg#m)'",
+    "mask-in-linear-light": "simplified: mask in linear light (color-interpolation) read as one in sRGB",
     "mask-of-outermost": "left out: @media (min-width: 1e400px); "
     "simplified: clip-path of the outermost <svg> read in the units of its content",
     "mask-of-layers": "left out: mask 'url(#m), linear-gradient(black, transpar'",

@@ -1,6 +1,7 @@
 // Paint servers, and the paints of shapes at their places.
-import { MOST_TILED, UNKNOWN_SERVERS } from '../../generated/svg-reader.js';
+import { MOST_STOPS, MOST_TILED, UNKNOWN_SERVERS } from '../../generated/svg-reader.js';
 import { GRADIENTS, rampPaint, readRamp, readStops } from './gradients.js';
+import { stopsInLinearLight } from './linear-light.js';
 import { fadePaint } from './paints.js';
 import { fadeTiling, readPattern, tilingOn } from './patterns.js';
 import { isInside } from './space.js';
@@ -12,6 +13,9 @@ import { isInside } from './space.js';
 
 /** @type {readonly [number, number, number, number]} */
 const GREY = [0.5, 0.5, 0.5, 1];
+
+/** Largest error of a gradient in linear light that no note tells. */
+const MOST_ERROR = 1 / 255;
 const LINK = /^\s*url\(\s*(['"]?)(.*?)\1\s*\)\s*$/s;
 const PAINT = /^url\(\s*(['"]?)(.*?)\1\s*\)\s*(.*)$/is;
 
@@ -180,9 +184,14 @@ export class PaintServers {
     const known = this.ramps.get(gradient);
     if (known !== undefined) return known;
     const chain = this.chain(gradient, GRADIENTS);
-    const stops = chain.map((one) => readStops(one, this.report)).find((list) => list.length);
-    if (this.engine.style(gradient).get('color-interpolation').toLowerCase() === 'linearrgb') {
-      this.report.simplified('gradient in linear light (color-interpolation) read as one in sRGB');
+    let stops = chain.map((one) => readStops(one, this.report)).find((list) => list.length);
+    if (stops && this.engine.style(gradient).get('color-interpolation').toLowerCase() === 'linearrgb') {
+      const linear = stopsInLinearLight(stops, MOST_STOPS);
+      stops = linear.stops;
+      if (linear.error > MOST_ERROR) {
+        const error = Number((255 * linear.error).toPrecision(6));
+        this.report.simplified(`gradient in linear light (color-interpolation) of many stops, up to ${error}/255`);
+      }
     }
     const ramp = stops ? readRamp(chain, stops, this.report) : null;
     this.ramps.set(gradient, ramp);

@@ -9,7 +9,9 @@ from vexture.drawing.colors import CONTEXT, CURRENT, Color, PaintText, parse_pai
 from vexture.drawing.paint import Paint, Stop
 from vexture.svg.document import local_name
 from vexture.svg.gradients import GRADIENTS, GradientRamp, read_ramp, stop_offsets
+from vexture.svg.linear_light import stops_in_linear_light
 from vexture.svg.links import Links, reference
+from vexture.svg.meshes import MESHES, MeshGradient, read_mesh
 from vexture.svg.outline import ShapeOutline
 from vexture.svg.pattern_tiles import Budget, FirstTile
 from vexture.svg.patterns import Pattern, Tiling, read_pattern
@@ -18,12 +20,15 @@ from vexture.svg.space import ElementPlace
 from vexture.svg.style import Cascade, ElementStyle
 
 UNKNOWN = {"meshgradient": "gradient mesh", "meshGradient": "gradient mesh", "hatch": "hatch"}
-"""Unsupported paint servers, with their names in notes."""
+"""Names in notes of paint servers that cannot be read, or that are not supported. Pages support no meshes."""
 
 GREY = Color((0.5, 0.5, 0.5), 1.0)
 PATTERNS = frozenset({"pattern"})
 MOST_STOPS = 128
 """Most stops of a gradient: half of the number that one paint of a pixel may go through (FORMAT.md, D.6)."""
+
+MOST_ERROR = 1 / 255
+"""Largest error of a gradient in linear light that no note tells."""
 
 LINK = re.compile(r"\s*url\(\s*(['\"]?)(.*?)\1\s*\)\s*", re.DOTALL)
 
@@ -37,6 +42,7 @@ class PaintServers(Links):
         self.report = report
         self.ramps: dict[etree._Element, GradientRamp | None] = {}
         self.patterns: dict[etree._Element, Pattern | None] = {}
+        self.meshes: dict[etree._Element, MeshGradient | None] = {}
         self.styles: dict[etree._Element, ElementStyle] = {}
         self.budget: Budget = Budget(report)
         self.tiles: dict[tuple[Hashable, ...], FirstTile] = {}  # of patterns, as painted so far
@@ -105,6 +111,8 @@ class PaintServers(Links):
             found = ramp.paint(place, outlines)
         elif server is not None and name in PATTERNS:
             found = self.tiling(server, text.color, place, outlines)
+        elif server is not None and name in MESHES and (mesh := self.mesh(server)) is not None:
+            found = mesh.paint(place, outlines, self.report)
         else:
             where = "which is not in the drawing" if server is None else "which is no gradient or pattern"
             self.report.left_out(UNKNOWN.get(name or "", f"paint '{link[:40]}', {where}"), place.element)
@@ -130,6 +138,13 @@ class PaintServers(Links):
             self.patterns[element] = read_pattern(chain, [*map(self.style_of, chain)], self.report)
         return self.patterns[element]
 
+    def mesh(self, element: etree._Element) -> MeshGradient | None:
+        """Read a gradient mesh and those that it refers to; None if it has no patches, or they are not valid."""
+        if element not in self.meshes:
+            chain = self.chain(element, MESHES)
+            self.meshes[element] = read_mesh(chain, self.style_of(element), self.stop, self.report)
+        return self.meshes[element]
+
     def chain(self, first: etree._Element, kinds: frozenset[str]) -> list[etree._Element]:
         """Return an element, the one it refers to, and so on, as long as they are of the given kinds."""
         chain: list[etree._Element] = []
@@ -145,10 +160,13 @@ class PaintServers(Links):
             chain = self.chain(gradient, GRADIENTS)
             stops = next(filter(None, map(self.stops, chain)), None)
             style = self.style_of(gradient)
-            if style["color-interpolation"].lower() == "linearrgb":
-                self.report.simplification(
-                    "gradient in linear light (color-interpolation) read as one in sRGB", gradient
-                )
+            if stops is not None and style["color-interpolation"].lower() == "linearrgb":
+                stops, error = stops_in_linear_light(stops, MOST_STOPS)
+                if error > MOST_ERROR:
+                    self.report.simplification(
+                        f"gradient in linear light (color-interpolation) of many stops, up to {255 * error:g}/255",
+                        gradient,
+                    )
             self.ramps[gradient] = None if stops is None else read_ramp(chain, stops, style, self.report)
         return self.ramps[gradient]
 
