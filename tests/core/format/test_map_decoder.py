@@ -116,7 +116,8 @@ def test_the_example_is_what_it_says() -> None:
 
 def test_the_example_of_a_picture_is_what_it_says() -> None:
     part = (REPOSITORY / "FORMAT.md").read_text(encoding="utf-8").split("### D.6 Programs")[1].split("### D.7")[0]
-    rows = re.findall(r"^\| (\d+) \|((?: [0-9a-f]{8} \|){4})", part.split("a picture of two pixels")[1], re.M)
+    part = part.split("a picture of two pixels")[1].split("another example")[0]
+    rows = re.findall(r"^\| (\d+) \|((?: [0-9a-f]{8} \|){4})", part, re.M)
     assert [number for number, _ in rows] == ["20", "21", "22", "23", "24"]
     words = np.array([[int(word, 16) for word in row.split("|")[:4]] for _, row in rows])
     program = map_decoder.read_programs(words, 0, [3, 0, 2], {1: [0, 3]})
