@@ -24,7 +24,7 @@ SAID = {
     "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
     "filter": "left out: filter of convolve matrix",
-    "filter-functions": "left out: filter of drop shadow and convolve matrix",
+    "filter-functions": "simplified: filter of drop shadow and convolve matrix (convolve matrix as a picture of 256 x 256 pixels)",
     "filter-missing": "invalid and ignored: filter='url(#none)' of <rect> in line 2",
     "filter-steps": "left out: filter of flood, offset, blur, color matrix and more (2)",
     "gradient-mesh": "left out: gradient mesh",

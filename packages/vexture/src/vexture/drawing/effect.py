@@ -5,7 +5,7 @@ A drawing has no type here, as it has paints itself.
 
 from collections.abc import Callable
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -52,6 +52,11 @@ class Effect:
         effect = copy(self)
         object.__setattr__(effect, "to_source", compose_affine(self.to_source, matrix))
         return effect
+
+    def then(self, change: Callable[[Pixels], Pixels]) -> "Effect":
+        """Return the picture after a further function of its pixels."""
+        process = self.process
+        return replace(self, process=lambda rasters: change(process(rasters)))
 
     @property
     def to_pixels(self) -> Affine:

@@ -11,7 +11,7 @@ from vexture.drawing.paint import Color, Paint
 from vexture.svg.compositing import Box, masking
 from vexture.svg.filter_colors import ColorFunction, change_paint, recolor_paint, to_linear, unchanged
 from vexture.svg.filter_composite import outside
-from vexture.svg.filter_content import Content, FilterLimitError, flood, stack
+from vexture.svg.filter_content import Content, InexactError, flood, stack
 
 ONE_BY_ONE: Final = "translucent shapes that overlap are changed one by one"
 SOFT: Final = "the change of soft opacities is not exact"
@@ -23,7 +23,25 @@ def recolor(content: Content, color: Color, element: str | None = None) -> Conte
         group if group.blend in (Blend.NORMAL, Blend.PLUS_LIGHTER) else replace(group, blend=Blend.NORMAL)
         for group in content.groups
     )  # all other modes have the opacity of the normal one
-    return Content(content.paths, groups).with_paints(lambda path: recolor_paint(path.paint, color), element)
+    hidden = {id(path) for path in repeated_outlines(content)}
+
+    def change(path: Path) -> Paint | None:
+        return None if id(path) in hidden else recolor_paint(path.paint, color)
+
+    return Content(content.paths, groups).with_paints(change, element)
+
+
+def repeated_outlines(content: Content) -> list[Path]:
+    """Return the paths that add no opacity, because an opaque path of the same group has the same outlines."""
+    opaque: set[tuple[object, ...]] = set()
+    translucent: list[tuple[tuple[object, ...], Path]] = []
+    for path in content.visible:
+        outlines = path.group, path.fill_rule, *(contour.tobytes() for contour in path.contours)
+        if path.paint.is_opaque and outlines not in opaque:
+            opaque.add(outlines)
+        else:
+            translucent.append((outlines, path))
+    return [path for outlines, path in translucent if outlines in opaque]
 
 
 def change_colors(
@@ -72,7 +90,7 @@ def fill_region(content: Content, function: ColorFunction, empty: Paint, region:
         if full >= 1.0:
             return stack([ground.fade(rest), content])
         return stack([outside(ground.fade(rest), content), content.fade(full)])
-    raise FilterLimitError("it makes transparency visible in several colours")
+    raise InexactError("it makes transparency visible in several colours")
 
 
 def change_alpha(content: Content, function: ColorFunction, remarks: dict[str, None]) -> Content:
@@ -128,7 +146,7 @@ def alpha_of_colors(
     """Return the content with opacities that depend on colours: a rectangle of one colour, masked by them."""
     color, constant = function.color((0.0, 0.0, 0.0), 0.0)
     if constant > 0.0 or function.constant is None:
-        raise FilterLimitError("it makes opacities of colours, in several colours or where nothing is")
+        raise InexactError("it makes opacities of colours, in several colours or where nothing is")
     matrix = np.zeros((4, 5))
     assert function.matrix is not None
     matrix[:3] = function.matrix[3]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Color, Gradient, Paint, Stop
 from vexture.svg.compositing import masking
+from vexture.svg.filter_pixels import map_colors
 
 Colors = NDArray[np.float64]
 """Colours (n, 4): red, green, blue, not premultiplied, and opacity, each in 0..1."""
@@ -200,6 +201,8 @@ def change_paint(paint: Paint, function: ColorFunction) -> Paint:
         return change_gradient(paint.gradient, function)
     if paint.picture is not None:
         return change_picture(paint, function)
+    if paint.effect is not None:
+        return replace(paint, effect=paint.effect.then(lambda pixels: map_colors(pixels, function.of)))
     if paint.blur is None:
         return Paint(*function.color(paint.color, paint.opacity))
     colors = function.of_colors
@@ -268,6 +271,8 @@ def recolor_paint(paint: Paint, color: Color) -> Paint:
     """
     if paint.blur is not None:
         return replace(paint, color=color, blur=replace(paint.blur, has_colors=False, is_linear=False))
+    if paint.effect is not None:
+        return replace(paint, effect=paint.effect.then(lambda pixels: pixels[..., 3:] * (*color, 1.0)))
     if paint.is_opaque:
         return Paint(color)
     if paint.gradient is not None:

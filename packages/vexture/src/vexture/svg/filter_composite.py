@@ -11,7 +11,7 @@ from vexture.svg.compositing import Box, meet
 from vexture.svg.filter_colors import recolor_paint
 from vexture.svg.filter_content import (
     Content,
-    FilterLimitError,
+    InexactError,
     blend_group,
     flood,
     holds,
@@ -137,7 +137,7 @@ def combine(upper: Content, lower: Content, factors: tuple[float, float, float, 
     """
     product, first, second, constant = factors
     if abs(constant) > SAME:
-        raise FilterLimitError(FACTORS.format(listed(factors)))
+        raise InexactError(FACTORS.format(listed(factors)))
     if not upper.visible or not lower.visible:
         return scale(upper, first, factors) if upper.visible else scale(lower, second, factors)
     if abs(product) <= SAME:
@@ -145,7 +145,7 @@ def combine(upper: Content, lower: Content, factors: tuple[float, float, float, 
     rest = first, second
     both = multiply(upper, lower)
     if both is None:
-        raise FilterLimitError(FACTORS.format(listed(factors)))
+        raise InexactError(FACTORS.format(listed(factors)))
     if product > 0.0 and rest == (0.0, 0.0):
         return scale(both, product, factors)
     if product < 0.0 and lower.color == (1.0, 1.0, 1.0) and abs(first + product) <= SAME and second == 0.0:
@@ -156,7 +156,7 @@ def combine(upper: Content, lower: Content, factors: tuple[float, float, float, 
         return add_light(
             scale(both, product, factors), add_light(scale(upper, first, factors), scale(lower, second, factors))
         )
-    raise FilterLimitError(FACTORS.format(listed(factors)))
+    raise InexactError(FACTORS.format(listed(factors)))
 
 
 def combine_sums(upper: Content, lower: Content, factors: tuple[float, float, float, float]) -> Content:
@@ -170,7 +170,7 @@ def combine_sums(upper: Content, lower: Content, factors: tuple[float, float, fl
     is_even = less.color is not None and less.color == more.color
     if is_even and more.is_opaque and part <= 1.0 and abs(whole - 1.0) <= SAME:
         return outside(more, less.fade(part))
-    raise FilterLimitError(FACTORS.format(listed(factors)))
+    raise InexactError(FACTORS.format(listed(factors)))
 
 
 def multiply(upper: Content, lower: Content) -> Content | None:
@@ -196,7 +196,7 @@ def scale(content: Content, factor: float, factors: tuple[float, float, float, f
         return content.fade(factor)
     if content.is_opaque and content.color == BLACK:
         return content
-    raise FilterLimitError(FACTORS.format(listed(factors)))
+    raise InexactError(FACTORS.format(listed(factors)))
 
 
 def listed(factors: tuple[float, float, float, float]) -> str:

@@ -35,6 +35,10 @@ class FilterLimitError(Exception):
     """A filter that cannot be drawn; the message says why."""
 
 
+class InexactError(FilterLimitError):
+    """A step that has no exact form for its inputs; it can be sampled."""
+
+
 @dataclass(frozen=True, eq=False)
 class Content:
     """Paths and groups, as those of a drawing."""
@@ -260,7 +264,7 @@ def colors_of(paint: Paint) -> set[Color]:
         return {stop.color for stop in paint.gradient.stops if stop.opacity > 0.0}
     if paint.picture is not None and paint.picture.color is None:
         return set() if not paint.picture.pixels[..., 3].any() else colors_of_pixels(paint)
-    if paint.blur is not None and paint.blur.has_colors:
+    if paint.effect is not None or (paint.blur is not None and paint.blur.has_colors):
         return {(0.0, 0.0, 0.0), (1.0, 1.0, 1.0)}
     return {paint.color}
 

@@ -20,8 +20,17 @@ from vexture.svg.filter_colors import (
     weighted_matrix,
 )
 from vexture.svg.filter_composite import blend, combine, composite
-from vexture.svg.filter_content import Content, FilterLimitError, flood, stack
+from vexture.svg.filter_content import Content, FilterLimitError, InexactError, flood, stack
 from vexture.svg.filter_graph import FilterStep
+from vexture.svg.filter_sampled import (
+    make_convolution,
+    make_displacement,
+    make_lighting,
+    make_morphology,
+    make_turbulence,
+    sample_colors,
+    sample_composite,
+)
 from vexture.svg.filter_soft import blur_content
 from vexture.svg.properties import BLENDS
 from vexture.svg.transform import Identity
@@ -87,7 +96,10 @@ def make_composite(step: FilterStep) -> Content:
     upper, lower = step.input(), step.input("in2")
     if operator == "arithmetic":
         k1, k2, k3, k4 = (step.number(f"k{k}", 0.0) for k in (1, 2, 3, 4))
-        return combine(upper, lower, (k1, k2, k3, k4))
+        try:
+            return combine(upper, lower, (k1, k2, k3, k4))
+        except InexactError:
+            return sample_composite(step, (k1, k2, k3, k4))
     if operator not in OPERATORS:
         step.subject.scene.report.invalid("operator", operator, step.element)
         operator = "over"
@@ -155,7 +167,10 @@ def change(step: FilterStep, function: ColorFunction) -> Content:
     content = step.input()
     if function.matrix is not None and np.array_equal(function.matrix, np.eye(4, 5)):
         return content
-    return change_colors(content, function, step.region, step.subject.own_name, step.remarks)
+    try:
+        return change_colors(content, function, step.region, step.subject.own_name, step.remarks)
+    except InexactError:
+        return sample_colors(step, function)
 
 
 def make_transfer(step: FilterStep) -> Content:
@@ -235,10 +250,16 @@ PRIMITIVES: Final[dict[str, Callable[[FilterStep], Content]]] = {
     "ColorMatrix": make_colors,
     "ComponentTransfer": make_transfer,
     "Composite": make_composite,
+    "ConvolveMatrix": make_convolution,
+    "DiffuseLighting": make_lighting,
+    "DisplacementMap": make_displacement,
     "DropShadow": make_shadow,
     "Flood": make_flood,
     "GaussianBlur": make_blur,
     "Merge": make_merge,
+    "Morphology": make_morphology,
     "Offset": make_offset,
+    "SpecularLighting": make_lighting,
     "Tile": make_tile,
+    "Turbulence": make_turbulence,
 }

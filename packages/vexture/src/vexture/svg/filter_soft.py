@@ -23,6 +23,12 @@ MOST_NESTED: Final = 6
 MOST_SPENT: Final = 100_000
 """Most paths that the steps of all filters of a drawing may have, those of each step anew."""
 
+FINEST, COARSEST = 8, 5
+"""Binary logarithms of the pixels on a side of sampled pictures, of the first few filters and of the last ones."""
+
+AT_ONCE: Final = 3
+"""Filters with sampled pictures of the same density."""
+
 FARTHEST: Final = 1e6
 """Largest deviation in sizes of the content. Then nothing of it is seen."""
 
@@ -102,7 +108,16 @@ class Sources:
 
     def __init__(self) -> None:
         self.known: dict[int, tuple[Drawing, int, int]] = {}
+        self.sampled: dict[int, tuple[int, object]] = {}  # filters with sampled steps, by identity, with their place
         self.spent = 0  # paths of all steps so far
+
+    def depth_of(self, graph: object) -> int:
+        """Return the binary logarithm of the pixels on a side of the sampled pictures of a filter.
+
+        The first filters of a drawing get the most.
+        """
+        place = self.sampled.setdefault(id(graph), (len(self.sampled), graph))[0]
+        return max(FINEST - place // AT_ONCE, COARSEST)
 
     def spend(self, count: int) -> None:
         """Count paths; raise a `FilterLimitError` if there are too many."""

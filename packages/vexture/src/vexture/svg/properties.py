@@ -128,6 +128,7 @@ PROPERTIES: dict[str, Property] = {
     "glyph-orientation-vertical": Property("auto", True, matching(f"auto|{NUMBER}(?:deg|grad|rad|turn)?")),
     "letter-spacing": Property("normal", True, matching(SPACING)),
     "kerning": Property("auto", True, matching(f"auto|{LENGTH}")),
+    "lighting-color": Property("white", False, parse_color),
     "marker-end": Property("none", True, anything),
     "marker-mid": Property("none", True, anything),
     "marker-start": Property("none", True, anything),
