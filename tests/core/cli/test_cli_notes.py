@@ -47,7 +47,7 @@ def test_a_size_of_zero_is_an_empty_drawing(tmp_path):
 
 
 STRICT = SVG.format(
-    '<filter id="f"><feConvolveMatrix/></filter><g id="card" filter="url(#f)"><path d="M2 2h6v5h-6z"/></g>'
+    '<filter id="f"><feImage/></filter><g id="card" filter="url(#f)"><path d="M2 2h6v5h-6z"/></g>'
     '<foreignObject/><foreignObject id="t"/>'
 )
 
@@ -60,7 +60,7 @@ def test_strict_accepts_no_loss(square, tmp_path, command):
     result = run(command, file, "-o", out, "--strict")
     assert result.exit_code == 1
     assert result.output == (
-        f"vexture: {file}: left out: filter of convolve matrix, <foreignObject> (2); --strict accepts no such note; "
+        f"vexture: {file}: left out: filter of image, <foreignObject> (2); --strict accepts no such note; "
         "correct the source, or leave it out\n"
     )
     assert not out.exists()

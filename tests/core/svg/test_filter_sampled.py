@@ -65,8 +65,9 @@ def test_light_from_a_distance_falls_on_the_whole_region() -> None:
 
 
 def test_a_displacement_by_a_flood_moves_the_shape() -> None:
-    steps = '<feFlood flood-color="#ff0000"/><feDisplacementMap in="SourceGraphic" xChannelSelector="R" yChannelSelector="A"'
-    drawing = read(f"{steps} scale='20' in2='undefined'/>".replace("in2='undefined'", ""))
+    channels = 'xChannelSelector="R" yChannelSelector="A"'
+    steps = f'<feFlood flood-color="#ff0000"/><feDisplacementMap in="SourceGraphic" {channels} scale="20"/>'
+    drawing = read(steps)
     assert colour_in(drawing, 25.0, 40.0)[3] == pytest.approx(1.0, abs=0.02)  # the shape 10 to the left and above
     assert colour_in(drawing, 65.0, 55.0)[3] == pytest.approx(0.0, abs=0.02)
 

@@ -80,7 +80,7 @@ def fill_region(content: Content, function: ColorFunction, empty: Paint, region:
     rest, full = empty.opacity, function.alpha(1.0)
     ground = flood(region, Paint(empty.color), element)
     is_affine = function.matrix is not None or abs(function.alpha(0.5) - (rest + full) / 2.0) < 1e-9
-    same = content.color is None or content.color == empty.color
+    same = not content.visible or content.color == empty.color
     if same and is_affine and full <= rest:
         part = 1.0 - full / rest
         return outside(ground, content.fade(part)).fade(rest)

@@ -9,7 +9,7 @@ import numpy as np
 from vexture.drawing.group import Blend
 from vexture.drawing.paint import Paint
 from vexture.svg.document import local_name
-from vexture.svg.filter_alpha import change_colors, recolor
+from vexture.svg.filter_alpha import SOFT, change_colors, recolor
 from vexture.svg.filter_colors import (
     Channel,
     ColorFunction,
@@ -96,6 +96,8 @@ def make_composite(step: FilterStep) -> Content:
     upper, lower = step.input(), step.input("in2")
     if operator == "arithmetic":
         k1, k2, k3, k4 = (step.number(f"k{k}", 0.0) for k in (1, 2, 3, 4))
+        if step.is_linear and k2 and k3 and not (is_even(upper) and is_even(lower)):
+            return sample_composite(step, (k1, k2, k3, k4))
         try:
             return combine(upper, lower, (k1, k2, k3, k4))
         except InexactError:
@@ -106,6 +108,12 @@ def make_composite(step: FilterStep) -> Content:
     if operator != "in" and operator != "out":
         note_linear(step, upper, lower)
     return composite(upper, lower, operator)
+
+
+def is_even(content: Content) -> bool:
+    """Return whether a content has one colour, the same in linear light, or none."""
+    color = content.color
+    return not content.visible or (color is not None and all(part in (0.0, 1.0) for part in color))
 
 
 def deviations_of(step: FilterStep, default: float) -> tuple[float, float]:
@@ -167,10 +175,15 @@ def change(step: FilterStep, function: ColorFunction) -> Content:
     content = step.input()
     if function.matrix is not None and np.array_equal(function.matrix, np.eye(4, 5)):
         return content
+    remarks: dict[str, None] = {}
     try:
-        return change_colors(content, function, step.region, step.subject.own_name, step.remarks)
+        changed = change_colors(content, function, step.region, step.subject.own_name, remarks)
     except InexactError:
         return sample_colors(step, function)
+    if SOFT in remarks:
+        return sample_colors(step, function)
+    step.remarks.update(remarks)
+    return changed
 
 
 def make_transfer(step: FilterStep) -> Content:

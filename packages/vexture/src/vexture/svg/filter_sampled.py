@@ -54,7 +54,9 @@ def sample_step(step: FilterStep, operation: Operation) -> Content:
     raster_step = RasterStep(operation, tuple(step.links), "", step.region, step.is_linear)
     check_steps([raster_step], frame)
     step.remarks[f"{words_of(step.name)} as a picture of {1 << depth} x {1 << depth} pixels"] = None
-    sources = tuple(source_of(each.content, square) for each in inputs)
+    sources = tuple(source_of(each.content.cut(square), square) for each in inputs)
+    for source in sources:
+        step.subject.scene.sources.check(source)
     regions = tuple(meeting(each.region, square) or (left, top, left, top) for each in inputs)
 
     def process(rasters: tuple[Pixels, ...]) -> Pixels:

@@ -1,5 +1,6 @@
 """Gaussian blurs of the content of filters (Filter Effects 1, 9.14), as paths with soft paints."""
 
+from collections.abc import Iterator
 from typing import Final
 
 from vexture.drawing.affine import Affine
@@ -25,6 +26,9 @@ MOST_SPENT: Final = 100_000
 
 FINEST, COARSEST = 8, 5
 """Binary logarithms of the pixels on a side of sampled pictures, of the first few filters and of the last ones."""
+
+MOST_SAMPLED: Final = 40
+"""Most filters of a drawing with sampled pictures, which may take about 200,000 texels."""
 
 AT_ONCE: Final = 3
 """Filters with sampled pictures of the same density."""
@@ -103,6 +107,15 @@ def mean_color(content: Content) -> Color:
     return red, green, blue
 
 
+def sources_in(drawing: Drawing) -> Iterator[Drawing]:
+    """Yield the drawings that paints of a drawing blur or sample."""
+    for path in drawing.paths:
+        if path.paint.blur is not None:
+            yield path.paint.blur.source
+        if path.paint.effect is not None:
+            yield from path.paint.effect.sources
+
+
 class Sources:
     """The sources of the blurs of a drawing, with their depth and the number of paths that they take to draw."""
 
@@ -116,6 +129,8 @@ class Sources:
 
         The first filters of a drawing get the most.
         """
+        if len(self.sampled) > MOST_SAMPLED:
+            raise FilterLimitError(f"more than {MOST_SAMPLED} filters are sampled; use fewer")
         place = self.sampled.setdefault(id(graph), (len(self.sampled), graph))[0]
         return max(FINEST - place // AT_ONCE, COARSEST)
 
@@ -136,8 +151,7 @@ class Sources:
     def measure(self, drawing: Drawing) -> tuple[Drawing, int, int]:
         """Return a drawing with its depth and its number of paths."""
         if id(drawing) not in self.known:
-            blurs = [path.paint.blur for path in drawing.paths if path.paint.blur is not None]
-            inner = [self.measure(blur.source) for blur in blurs]  # as deep as the limit
+            inner = [self.measure(source) for source in sources_in(drawing)]  # as deep as the limit
             depth = 1 + max((depth for _, depth, _ in inner), default=0)
             self.known[id(drawing)] = drawing, depth, len(drawing.paths) + sum(count for _, _, count in inner)
         return self.known[id(drawing)]
