@@ -18,13 +18,13 @@ MODULES = WEB / "node_modules"
 FIRST_LOAD_LIMIT = 23_800
 """Bytes, minified and deflated, of what a page with vector textures loads at first, without three.js."""
 
-MAP_LOAD_LIMIT = 46_800
+MAP_LOAD_LIMIT = 46_700
 """The same of all that it loads for a planar map."""
 
 MAP_MARKS = ("vextureSheets(int", "convert the drawing with that colour", "plus-lighter")
 """Text of what only planar maps need: their shader, new colours for their elements, their gradients."""
 
-TILE_LOAD_LIMITS = {"vexture/maplibre": 53_100, "vexture/globe": 53_100}
+TILE_LOAD_LIMITS = {"vexture/maplibre": 53_000, "vexture/globe": 53_000}
 """And what a page with a pyramid of tiles loads, all that it loads later included, without MapLibre and three.js."""
 
 OTHERS = [f"--external:{name}" for name in ("three", "react", "@react-three/fiber", "maplibre-gl")]

@@ -50,8 +50,8 @@ from vexture.renderers.method import (
     RAMP_PARTS,
     SHORTEST_RAMP,
 )
-from vexture.renderers.pixels import first_level, picture_mean
-from vexture.renderers.splines import LINEAR, OPACITY, SPLINE, flat_color, spline_mean
+from vexture.renderers.pixels import first_level
+from vexture.renderers.splines import OPACITY, flat_color, sampled_mean
 from vexture.renderers.vectors import Vec3, Vec4, as_float, as_floats, plus, times
 
 NORMAL, COLOR_BURN, HUE = int(Blend.NORMAL), int(Blend.COLOR_BURN), int(Blend.HUE)
@@ -326,10 +326,7 @@ def picture(texels: Texels, at: int, record: Texel, region: VextureRegion, share
     sampling, pixels = record[3] & 7, picture_region(texels, at, region)
     level = first_level(size, 0 + at + record[2], sampling >= OPACITY)
     opacity = (record[0] & mask) / PAINT_ONE / COVERAGE_ONE
-    if sampling < SPLINE:
-        mean = picture_mean(texels, level, sampling == LINEAR, pixels.point, pixels.right, pixels.up, share)
-        return times(mean, opacity)
-    mean = spline_mean(texels, level, pixels.point, pixels.right, pixels.up, share)
+    mean = sampled_mean(texels, level, sampling, pixels.point, pixels.right, pixels.up, share)
     return times(flat_color(texel(texels, at + 1)[3], mean[0], sampling) if sampling >= OPACITY else mean, opacity)
 
 

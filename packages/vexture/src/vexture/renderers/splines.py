@@ -23,12 +23,10 @@ from vexture.renderers.pixels import (
     floor_of,
     picture_mean,
     pixel,
-    pixels_at,
-    sum_pixels,
 )
-from vexture.renderers.vectors import Vec4, plus, times
+from vexture.renderers.vectors import Vec4, times
 
-LINEAR, SPLINE = int(Sampling.LINEAR), int(Sampling.SPLINE)
+PIXELS, SPLINE = int(Sampling.PIXELS), int(Sampling.SPLINE)
 OPACITY, INVERSE = int(Sampling.OPACITY), int(Sampling.INVERSE)
 
 
@@ -69,24 +67,6 @@ def drop(shares: Vec4, after: float) -> Vec4:
 
 
 @kernel(allocates=False)
-def weighted_block(texels: Texels, level: VextureLevel, i: int, j: int, columns: Vec4, rows: Vec4) -> Vec4:
-    sum = (0.0, 0.0, 0.0, 0.0)
-    if level.blocks != 0:
-        found, total = block(texels, level, i, j), 0.0
-        for k in range(4):
-            total += rows[k] * dot_four(columns, pixel(found[k]))
-        return total, 0.0, 0.0, 0.0
-    for k in range(4):
-        across = (columns[0], columns[1]) if k & 1 == 0 else (columns[2], columns[3])
-        down = (rows[0], rows[1]) if k < 2 else (rows[2], rows[3])
-        weights = (down[0] * across[0], down[0] * across[1], down[1] * across[0], down[1] * across[1])
-        if weights != (0.0, 0.0, 0.0, 0.0):
-            pixels = pixels_at(texels, level, 2 * i + (k & 1), 2 * j + (k >> 1))
-            sum = plus(sum, sum_pixels(pixels, weights), 1.0)
-    return sum
-
-
-@kernel(allocates=False)
 def span(middle: float, side: float, count: int) -> tuple[int, Vec2, int, int]:
     """Return the origin, the bounds from there, and the first and last block of a box, for one of two directions."""
     middle = clamp(middle, -WIDEST_SPLINE_BOX, count + WIDEST_SPLINE_BOX)
@@ -99,20 +79,21 @@ def span(middle: float, side: float, count: int) -> tuple[int, Vec2, int, int]:
 
 
 @kernel(allocates=False)
-def box_mean(texels: Texels, level: VextureLevel, middle: Vec2, sides: Vec2) -> Vec4:
+def box_mean(texels: Texels, level: VextureLevel, middle: Vec2, sides: Vec2) -> float:
     left, across, first, last = span(middle[0], sides[0], level.size[0])
     top, down, begin, end = span(middle[1], sides[1], level.size[1])
-    sum = (0.0, 0.0, 0.0, 0.0)
-    above = shares_beyond(BLOCK_SIDE * begin, level.size[1], top, down)
+    sum, above = 0.0, shares_beyond(BLOCK_SIDE * begin, level.size[1], top, down)
     for j in range(begin, end + 1):
         row = above
         above = shares_beyond(BLOCK_SIDE * (j + 1), level.size[1], top, down)
-        rows = drop(row, above[0])
+        row = drop(row, above[0])
         right = shares_beyond(BLOCK_SIDE * first, level.size[0], left, across)
         for i in range(first, last + 1):
             column = right
             right = shares_beyond(BLOCK_SIDE * (i + 1), level.size[0], left, across)
-            sum = plus(sum, weighted_block(texels, level, i, j, drop(column, right[0]), rows), 1.0)
+            column, found = drop(column, right[0]), block(texels, level, i, j)
+            for k in range(BLOCK_SIDE):
+                sum += row[k] * dot_four(column, pixel(found[k]))
     return sum
 
 
@@ -137,27 +118,32 @@ def widen(right: Vec2, up: Vec2) -> Vec4:
 
 @kernel(allocates=False)
 def slanted_parts(side: Vec2) -> int:
-    """Return one of the two numbers of parts of `spline_mean`, which GLSL computes as a vector; at most too many."""
+    """Return one of the two numbers of parts of `sampled_mean`, which GLSL computes as a vector; at most too many."""
     slant = (1.0 - LEVEL_BIAS) * math.sqrt(abs(side[0] * side[1])) / SLANTED_PART
     return max(math.ceil(slant), 1) if slant <= MOST_SPLINE_BOXES else MOST_SPLINE_BOXES + 1
 
 
 @kernel(allocates=False)
-def spline_mean(texels: Texels, level: VextureLevel, middle: Vec2, right: Vec2, up: Vec2, share: float) -> Vec4:
-    """Mean of a spline, 0..255; parameters as of `picture_mean`."""
+def sampled_mean(
+    texels: Texels, level: VextureLevel, sampling: int, middle: Vec2, right: Vec2, up: Vec2, share: float
+) -> Vec4:
+    """Mean of a picture of any sampling, 0..255; other parameters as of `picture_mean`."""
     parts = (slanted_parts(right), slanted_parts(up))
     a, b = (right[0] / parts[0], right[1] / parts[0]), (up[0] / parts[1], up[1] / parts[1])
     sides = (math.sqrt(a[0] * a[0] + b[0] * b[0]), math.sqrt(a[1] * a[1] + b[1] * b[1]))
     number = parts[0] * parts[1]
-    if number <= MOST_SPLINE_BOXES and (1.0 - LEVEL_BIAS) * max(sides[0], sides[1]) <= WIDEST_SPLINE_BOX:
-        sides, sum = (max(sides[0], LEAST_SPLINE_BOX), max(sides[1], LEAST_SPLINE_BOX)), (0.0, 0.0, 0.0, 0.0)
+    is_small = number <= MOST_SPLINE_BOXES and (1.0 - LEVEL_BIAS) * max(sides[0], sides[1]) <= WIDEST_SPLINE_BOX
+    if is_small and sampling >= OPACITY:
+        sides, sum = (max(sides[0], LEAST_SPLINE_BOX), max(sides[1], LEAST_SPLINE_BOX)), 0.0
         for k in range(number):
             x, y = k % parts[0] + 0.5 - 0.5 * parts[0], k // parts[0] + 0.5 - 0.5 * parts[1]
             place = (middle[0] + x * a[0] + y * b[0], middle[1] + x * a[1] + y * b[1])
-            sum = plus(sum, box_mean(texels, level, place, sides), 1.0 / number)
-        return sum
-    wide = widen(right, up)
-    return picture_mean(texels, level, True, middle, (wide[0], wide[1]), (wide[2], wide[3]), share)
+            sum += box_mean(texels, level, place, sides)
+        return sum / number, 0.0, 0.0, 0.0
+    if sampling >= SPLINE:
+        wide = widen(right, up)
+        right, up = (wide[0], wide[1]), (wide[2], wide[3])
+    return picture_mean(texels, level, sampling != PIXELS, middle, right, up, share)
 
 
 @kernel(allocates=False)

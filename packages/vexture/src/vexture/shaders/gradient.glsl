@@ -237,11 +237,7 @@ vec4 vexture_picture(uint at, uvec4 record, VextureRegion region, float share) {
     VextureRegion pixels = vexture_picture_region(at, region);
     VextureLevel level = vexture_first_level(size, at + record.z, is_one);
     float opacity = float(record.x & 0xffffu) / float(VEXTURE_PAINT_ONE) / float(VEXTURE_COVERAGE_ONE);
-    if (sampling < uint(VEXTURE_SAMPLING_SPLINE)) {
-        bool is_smooth = sampling == uint(VEXTURE_SAMPLING_LINEAR);
-        return opacity * vexture_picture_mean(level, is_smooth, pixels.point, pixels.right, pixels.up, share);
-    }
-    vec4 mean = vexture_spline_mean(level, pixels.point, pixels.right, pixels.up, share);
+    vec4 mean = vexture_sampled_mean(level, sampling, pixels.point, pixels.right, pixels.up, share);
     if (is_one) {
         float one = float(VEXTURE_COVERAGE_ONE);
         vec4 color = vexture_pixel(vexture_texel(at + 1u).w);

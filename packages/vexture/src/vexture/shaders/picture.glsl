@@ -9,7 +9,7 @@
 // VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
 // needed is left out, because it takes registers.
 // Exports: VextureLevel, vexture_first_level, vexture_picture_mean, vexture_pixel.
-// Exports to spline.glsl: vexture_block, vexture_pixels_at, vexture_sum_pixels.
+// Exports to spline.glsl: vexture_block.
 #include "tree.glsl"
 
 #ifndef VEXTURE_GRADIENTS

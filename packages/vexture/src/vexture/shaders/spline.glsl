@@ -1,11 +1,12 @@
 // Pictures whose pixels are the coefficients of cubic B-splines (FORMAT.md, D.6): the mean of a spline over a parallelogram.
 //
-// Over an upright box it is exact: the weight of a column or row is a difference of integrals. A small parallelogram is
-// divided into few parts, each replaced by the box with the same variances. In a larger one, the pixels are interpolated
-// linearly, and it is widened by the variance that a spline has beyond that: 1/3 - 1/6 in each direction.
+// Over an upright box it is exact: the weight of a column or row is a difference of integrals. For opacities, a small
+// parallelogram is divided into few parts, each replaced by the box with the same variances. In others, and for colours,
+// pixels are interpolated linearly, and the parallelogram is widened by the variance that a spline has beyond that:
+// 1/3 - 1/6 in each direction. That is off by 0.4 of 255 for a blurred edge, and takes no further code.
 //
 // VEXTURE_GRADIENTS is 2 if programs hold pictures.
-// Exports: vexture_spline_mean.
+// Exports: vexture_sampled_mean.
 #include "picture.glsl"
 
 #if VEXTURE_GRADIENTS == 2
@@ -29,29 +30,8 @@ vec4 vexture_shares_beyond(int first, int count, float origin, vec2 between) {
     return share * clamp(float(count) - number, 0.0, 1.0);
 }
 
-// Sum of the pixels of four columns and rows, which begin at a multiple of four, with the product of these weights.
-vec4 vexture_weighted_block(VextureLevel level, int i, int j, vec4 columns, vec4 rows) {
-    vec4 sum = vec4(0.0);
-    if (level.blocks != 0u) {
-        uvec4 block = vexture_block(level, i, j);
-        for (int k = 0; k < 4; k++) {
-            sum.x += rows[k] * dot(columns, vexture_pixel(block[k]));
-        }
-        return sum;
-    }
-    for (int k = 0; k < 4; k++) {
-        vec2 across = (k & 1) == 0 ? columns.xy : columns.zw;
-        vec2 down = k < 2 ? rows.xy : rows.zw;
-        vec4 weights = vec4(down.x * across, down.y * across);
-        if (weights != vec4(0.0)) {
-            sum += vexture_sum_pixels(vexture_pixels_at(level, 2 * i + (k & 1), 2 * j + (k >> 1)), weights);
-        }
-    }
-    return sum;
-}
-
-// Mean over an upright box, given by its middle and its sides.
-vec4 vexture_box_mean(VextureLevel level, vec2 middle, vec2 sides) {
+// Mean opacity over an upright box, given by its middle and its sides.
+float vexture_box_mean(VextureLevel level, vec2 middle, vec2 sides) {
     middle = min(max(middle, -VEXTURE_WIDEST_SPLINE_BOX), vec2(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
     vec2 origin = floor(middle);
     vec2 low = middle - origin - 0.5 * sides;
@@ -59,17 +39,20 @@ vec4 vexture_box_mean(VextureLevel level, vec2 middle, vec2 sides) {
     ivec2 first = clamp(ivec2(origin + floor(low - 1.5)), ivec2(0), level.size - 1) / VEXTURE_BLOCK_SIDE;
     ivec2 last = clamp(ivec2(origin + floor(high + 1.5)), ivec2(0), level.size - 1) / VEXTURE_BLOCK_SIDE;
     last = min(last, first + 4);  // more than the widest box needs: bounds the work for invalid numbers
-    vec4 sum = vec4(0.0);
+    float sum = 0.0;
     vec4 above = vexture_shares_beyond(4 * first.y, level.size.y, origin.y, vec2(low.y, high.y));
     for (int j = first.y; j <= last.y; j++) {
         vec4 row = above;
         above = vexture_shares_beyond(4 * j + 4, level.size.y, origin.y, vec2(low.y, high.y));
+        row -= vec4(row.yzw, above.x);
         vec4 right = vexture_shares_beyond(4 * first.x, level.size.x, origin.x, vec2(low.x, high.x));
         for (int i = first.x; i <= last.x; i++) {
             vec4 column = right;
             right = vexture_shares_beyond(4 * i + 4, level.size.x, origin.x, vec2(low.x, high.x));
             column -= vec4(column.yzw, right.x);
-            sum += vexture_weighted_block(level, i, j, column, row - vec4(row.yzw, above.x));
+            uvec4 block = vexture_block(level, i, j);
+            sum += row.x * dot(column, vexture_pixel(block.x)) + row.y * dot(column, vexture_pixel(block.y));
+            sum += row.z * dot(column, vexture_pixel(block.z)) + row.w * dot(column, vexture_pixel(block.w));
         }
     }
     return sum;
@@ -88,26 +71,32 @@ vec4 vexture_widen(vec2 right, vec2 up) {
     return sides / sqrt(along + beside + 2.0 * root);
 }
 
-// Mean of a spline, 0..255, over a parallelogram; parameters as of vexture_picture_mean.
-vec4 vexture_spline_mean(VextureLevel level, vec2 middle, vec2 right, vec2 up, float share) {
+// Mean of a picture of any sampling, 0..255, over a parallelogram; parameters as of vexture_picture_mean, which is called
+// in one place, because compilers copy it.
+vec4 vexture_sampled_mean(VextureLevel level, uint sampling, vec2 middle, vec2 right, vec2 up, float share) {
     float less = 1.0 - VEXTURE_LEVEL_BIAS;
     vec2 slants = less * sqrt(abs(vec2(right.x * right.y, up.x * up.y)));
     vec2 parts = max(ceil(slants / VEXTURE_SLANTED_PART), 1.0);
     vec2 sides = sqrt(right * right / (parts.x * parts.x) + up * up / (parts.y * parts.y));
     bool is_small = parts.x * parts.y <= float(VEXTURE_MOST_SPLINE_BOXES);
-    if (is_small && less * max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
+    is_small = is_small && less * max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX;
+    if (is_small && sampling >= uint(VEXTURE_SAMPLING_OPACITY)) {
         sides = max(sides, VEXTURE_LEAST_SPLINE_BOX);
         int across = int(parts.x);
         int number = across * int(parts.y);
-        vec4 sum = vec4(0.0);
+        float sum = 0.0;
         for (int k = 0; k < number; k++) {
             vec2 place = (vec2(ivec2(k % across, k / across)) + 0.5) / parts - 0.5;
             sum += vexture_box_mean(level, middle + place.x * right + place.y * up, sides);
         }
-        return sum / float(number);
+        return vec4(sum / float(number), 0.0, 0.0, 0.0);
     }
-    vec4 widened = vexture_widen(right, up);
-    return vexture_picture_mean(level, true, middle, widened.xy, widened.zw, share);
+    if (sampling >= uint(VEXTURE_SAMPLING_SPLINE)) {
+        vec4 widened = vexture_widen(right, up);
+        right = widened.xy;
+        up = widened.zw;
+    }
+    return vexture_picture_mean(level, sampling != uint(VEXTURE_SAMPLING_PIXELS), middle, right, up, share);
 }
 
 #endif

@@ -87,8 +87,8 @@ const VEXTURE_RAMP_PARTS: i32 = 6;
 const VEXTURE_REST_BITS: i32 = 4;
 const VEXTURE_ROW_BITS: i32 = 11;
 const VEXTURE_SAMPLING_INVERSE: i32 = 4;
-const VEXTURE_SAMPLING_LINEAR: i32 = 1;
 const VEXTURE_SAMPLING_OPACITY: i32 = 3;
+const VEXTURE_SAMPLING_PIXELS: i32 = 0;
 const VEXTURE_SAMPLING_SPLINE: i32 = 2;
 const VEXTURE_SHORTEST_RAMP: f32 = 2.384185791015625e-07;
 const VEXTURE_SHORT_SMOOTH: f32 = 0.0625;
@@ -383,7 +383,7 @@ fn vexture_blended(below: vec4f, above: vec4f, mode: u32) -> vec4f {
 // VEXTURE_GRADIENTS is 0 if no map has programs, 1 if they hold no pictures, or 2 if they hold pictures: text that is not
 // needed is left out, because it takes registers.
 // Exports: VextureLevel, vexture_first_level, vexture_picture_mean, vexture_pixel.
-// Exports to spline.glsl: vexture_block, vexture_pixels_at, vexture_sum_pixels.
+// Exports to spline.glsl: vexture_block.
 
 #if VEXTURE_GRADIENTS == 2
 
@@ -677,12 +677,13 @@ fn vexture_picture_mean(
 
 // Pictures whose pixels are the coefficients of cubic B-splines (FORMAT.md, D.6): the mean of a spline over a parallelogram.
 //
-// Over an upright box it is exact: the weight of a column or row is a difference of integrals. A small parallelogram is
-// divided into few parts, each replaced by the box with the same variances. In a larger one, the pixels are interpolated
-// linearly, and it is widened by the variance that a spline has beyond that: 1/3 - 1/6 in each direction.
+// Over an upright box it is exact: the weight of a column or row is a difference of integrals. For opacities, a small
+// parallelogram is divided into few parts, each replaced by the box with the same variances. In others, and for colours,
+// pixels are interpolated linearly, and the parallelogram is widened by the variance that a spline has beyond that:
+// 1/3 - 1/6 in each direction. That is off by 0.4 of 255 for a blurred edge, and takes no further code.
 //
 // VEXTURE_GRADIENTS is 2 if programs hold pictures.
-// Exports: vexture_spline_mean.
+// Exports: vexture_sampled_mean.
 
 #if VEXTURE_GRADIENTS == 2
 
@@ -705,32 +706,8 @@ fn vexture_shares_beyond(first: i32, count: i32, origin: f32, between: vec2f) ->
     return share * clamp(f32(count) - number, vec4f(0.0), vec4f(1.0));
 }
 
-// Sum of the pixels of four columns and rows, which begin at a multiple of four, with the product of these weights.
-fn vexture_weighted_block(
-    vextureTexels: texture_2d<u32>, level: VextureLevel, i: i32, j: i32, columns: vec4f, rows: vec4f,
-) -> vec4f {
-    var sum: vec4f = vec4f(0.0);
-    if (level.blocks != 0u) {
-        let block: vec4u = vexture_block(vextureTexels, level, i, j);
-        for (var k: i32 = 0; k < 4; k++) {
-            sum.x += rows[k] * dot(columns, vexture_pixel(block[k]));
-        }
-        return sum;
-    }
-    for (var k: i32 = 0; k < 4; k++) {
-        let across: vec2f = select(columns.zw, columns.xy, (k & 1) == 0);
-        let down: vec2f = select(rows.zw, rows.xy, k < 2);
-        let weights: vec4f = vec4f(down.x * across, down.y * across);
-        if (any(weights != vec4f(0.0))) {
-            sum += vexture_sum_pixels(vexture_pixels_at(vextureTexels, level, 2 * i + (k & 1), 2 * j + (k >> 1u)),
-                weights);
-        }
-    }
-    return sum;
-}
-
-// Mean over an upright box, given by its middle and its sides.
-fn vexture_box_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, middle_given: vec2f, sides: vec2f) -> vec4f {
+// Mean opacity over an upright box, given by its middle and its sides.
+fn vexture_box_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, middle_given: vec2f, sides: vec2f) -> f32 {
     var middle = middle_given;
     middle = min(max(middle, vec2f(-VEXTURE_WIDEST_SPLINE_BOX)), vec2f(level.size) + VEXTURE_WIDEST_SPLINE_BOX);
     let origin: vec2f = floor(middle);
@@ -739,17 +716,20 @@ fn vexture_box_mean(vextureTexels: texture_2d<u32>, level: VextureLevel, middle_
     let first: vec2i = clamp(vec2i(origin + floor(low - 1.5)), vec2i(0), level.size - 1) / VEXTURE_BLOCK_SIDE;
     var last: vec2i = clamp(vec2i(origin + floor(high + 1.5)), vec2i(0), level.size - 1) / VEXTURE_BLOCK_SIDE;
     last = min(last, first + 4);  // more than the widest box needs: bounds the work for invalid numbers
-    var sum: vec4f = vec4f(0.0);
+    var sum: f32 = 0.0;
     var above: vec4f = vexture_shares_beyond(4 * first.y, level.size.y, origin.y, vec2f(low.y, high.y));
     for (var j: i32 = first.y; j <= last.y; j++) {
-        let row: vec4f = above;
+        var row: vec4f = above;
         above = vexture_shares_beyond(4 * j + 4, level.size.y, origin.y, vec2f(low.y, high.y));
+        row -= vec4f(row.yzw, above.x);
         var right: vec4f = vexture_shares_beyond(4 * first.x, level.size.x, origin.x, vec2f(low.x, high.x));
         for (var i: i32 = first.x; i <= last.x; i++) {
             var column: vec4f = right;
             right = vexture_shares_beyond(4 * i + 4, level.size.x, origin.x, vec2f(low.x, high.x));
             column -= vec4f(column.yzw, right.x);
-            sum += vexture_weighted_block(vextureTexels, level, i, j, column, row - vec4f(row.yzw, above.x));
+            let block: vec4u = vexture_block(vextureTexels, level, i, j);
+            sum += row.x * dot(column, vexture_pixel(block.x)) + row.y * dot(column, vexture_pixel(block.y));
+            sum += row.z * dot(column, vexture_pixel(block.z)) + row.w * dot(column, vexture_pixel(block.w));
         }
     }
     return sum;
@@ -768,28 +748,38 @@ fn vexture_widen(right: vec2f, up: vec2f) -> vec4f {
     return sides / sqrt(along + beside + 2.0 * root);
 }
 
-// Mean of a spline, 0..255, over a parallelogram; parameters as of vexture_picture_mean.
-fn vexture_spline_mean(
-    vextureTexels: texture_2d<u32>, level: VextureLevel, middle: vec2f, right: vec2f, up: vec2f, share: f32,
+// Mean of a picture of any sampling, 0..255, over a parallelogram; parameters as of vexture_picture_mean, which is called
+// in one place, because compilers copy it.
+fn vexture_sampled_mean(
+    vextureTexels: texture_2d<u32>, level: VextureLevel, sampling: u32, middle: vec2f, right_given: vec2f,
+    up_given: vec2f, share: f32,
 ) -> vec4f {
+    var right = right_given;
+    var up = up_given;
     let less: f32 = 1.0 - VEXTURE_LEVEL_BIAS;
     let slants: vec2f = less * sqrt(abs(vec2f(right.x * right.y, up.x * up.y)));
     let parts: vec2f = max(ceil(slants / VEXTURE_SLANTED_PART), vec2f(1.0));
     var sides: vec2f = sqrt(right * right / (parts.x * parts.x) + up * up / (parts.y * parts.y));
-    let is_small: bool = parts.x * parts.y <= f32(VEXTURE_MOST_SPLINE_BOXES);
-    if (is_small && less * max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX) {
+    var is_small: bool = parts.x * parts.y <= f32(VEXTURE_MOST_SPLINE_BOXES);
+    is_small = is_small && less * max(sides.x, sides.y) <= VEXTURE_WIDEST_SPLINE_BOX;
+    if (is_small && sampling >= u32(VEXTURE_SAMPLING_OPACITY)) {
         sides = max(sides, vec2f(VEXTURE_LEAST_SPLINE_BOX));
         let across: i32 = i32(parts.x);
         let number: i32 = across * i32(parts.y);
-        var sum: vec4f = vec4f(0.0);
+        var sum: f32 = 0.0;
         for (var k: i32 = 0; k < number; k++) {
             let place: vec2f = (vec2f(vec2i(k % across, k / across)) + 0.5) / parts - 0.5;
             sum += vexture_box_mean(vextureTexels, level, middle + place.x * right + place.y * up, sides);
         }
-        return sum / f32(number);
+        return vec4f(sum / f32(number), 0.0, 0.0, 0.0);
     }
-    let widened: vec4f = vexture_widen(right, up);
-    return vexture_picture_mean(vextureTexels, level, true, middle, widened.xy, widened.zw, share);
+    if (sampling >= u32(VEXTURE_SAMPLING_SPLINE)) {
+        let widened: vec4f = vexture_widen(right, up);
+        right = widened.xy;
+        up = widened.zw;
+    }
+    return vexture_picture_mean(vextureTexels, level, sampling != u32(VEXTURE_SAMPLING_PIXELS), middle, right, up,
+        share);
 }
 #endif
 
@@ -1042,12 +1032,8 @@ fn vexture_picture(vextureTexels: texture_2d<u32>, at: u32, record: vec4u, regio
     let pixels: VextureRegion = vexture_picture_region(vextureTexels, at, region);
     let level: VextureLevel = vexture_first_level(size, at + record.z, is_one);
     let opacity: f32 = f32(record.x & 0xffffu) / f32(VEXTURE_PAINT_ONE) / f32(VEXTURE_COVERAGE_ONE);
-    if (sampling < u32(VEXTURE_SAMPLING_SPLINE)) {
-        let is_smooth: bool = sampling == u32(VEXTURE_SAMPLING_LINEAR);
-        return opacity
-            * vexture_picture_mean(vextureTexels, level, is_smooth, pixels.point, pixels.right, pixels.up, share);
-    }
-    var mean: vec4f = vexture_spline_mean(vextureTexels, level, pixels.point, pixels.right, pixels.up, share);
+    var mean: vec4f = vexture_sampled_mean(vextureTexels, level, sampling, pixels.point, pixels.right, pixels.up,
+        share);
     if (is_one) {
         let one: f32 = f32(VEXTURE_COVERAGE_ONE);
         let color: vec4f = vexture_pixel(vexture_texel(vextureTexels, at + 1u).w);
