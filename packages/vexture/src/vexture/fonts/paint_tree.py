@@ -19,7 +19,7 @@ from vexture.bezier.convert import line_cubics
 from vexture.drawing.affine import Affine
 from vexture.drawing.paint import Color, Gradient, Paint, Spread, Stop
 from vexture.fonts.engine import harfbuzz
-from vexture.fonts.sweeps import Sweep, sweep_courses
+from vexture.fonts.sweeps import SweepFill, sweep_courses
 
 Contours: TypeAlias = tuple[NDArray[np.float64], ...]
 
@@ -61,7 +61,7 @@ class Composite:
     children: list["Node"] = field(default_factory=list)
 
 
-Node: TypeAlias = Fill | Sweep | Clip | Composite
+Node: TypeAlias = Fill | SweepFill | Clip | Composite
 
 
 def paint_tree(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color, notes: Notes) -> Composite:
@@ -276,7 +276,7 @@ def mean(stops: tuple[Stop, ...]) -> Paint:
 
 def swept(
     line: Any, numbers: tuple[float, ...], foreground: Color, matrix: Affine, notes: Notes
-) -> Sweep | Fill | None:
+) -> SweepFill | Fill | None:
     """Return a sweep gradient about a point from one angle to another, in radians; None if it is invisible.
 
     `matrix` maps its coordinates to font units.
@@ -298,6 +298,6 @@ def swept(
     if not courses:
         notes.simplification("sweep gradient that repeats very often, shown as its mean colour")
         return Fill(mean(stops))
-    sweep = Sweep(courses, (x, y), matrix)
+    sweep = SweepFill(courses, (x, y), matrix)
     notes.simplification(f"sweep gradient drawn in {len(sweep.sectors)} sectors")
     return sweep

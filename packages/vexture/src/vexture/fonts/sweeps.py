@@ -20,7 +20,7 @@ Box = tuple[float, float, float, float]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Sweep:
+class SweepFill:
     """A sweep gradient that fills the clips around it.
 
     Parameters
