@@ -67,10 +67,62 @@ def test_a_gradient_without_direction_shows_nothing(points):
     assert layers_of(fill_shape("square", linear(line((0, RED, 1), (1, BLUE, 1)), *points))).paths == ()
 
 
-def test_sweep_gradient_is_named():
-    found = layers_of(fill_shape("disc", sweep(line((0, RED, 1), (1, BLUE, 1)), 550, 450, 0, 180)))
-    assert [str(note) for note in found.notes] == ["sweep gradient shown as its mean colour"]
-    assert found.paths[0].paint.gradient is None
+def middle(place):
+    """The middle of the hundredth of the em that contains a place."""
+    return 10 * np.floor(place / 10) + 5
+
+
+CENTER = (555, 455)
+TURNS = np.radians(np.arange(10, 355, 13))
+AROUND = [(middle(CENTER[0] + 250 * np.cos(turn)), middle(CENTER[1] + 250 * np.sin(turn))) for turn in TURNS]
+"""Points around the centre, in the middles of pixels."""
+
+
+@pytest.mark.parametrize("extend", ["pad", "repeat", "reflect"])
+@pytest.mark.parametrize(("start", "end"), [(0, 360), (30, 150), (200, 80), (90, 90)])
+def test_sweep_gradient_by_the_angle_of_a_point(extend, start, end):
+    colors = line((0.25, RED, 1), (0.75, BLUE, 1), extend=extend)
+    found = layers_of(fill_shape("disc", sweep(colors, *CENTER, start, end)))
+    if start == end and extend != "pad":
+        assert found.paths == ()
+        return
+    for point, color in zip(AROUND, colour_at(found, *AROUND), strict=True):
+        angle = np.degrees(np.arctan2(point[1] - CENTER[1], point[0] - CENTER[0])) % 360
+        part = (angle - start) / (end - start) if end != start else float(angle > start)
+        part = (part - 0.25) / 0.5
+        if extend == "pad":
+            part = min(max(part, 0.0), 1.0)
+        elif extend == "repeat":
+            part %= 1.0
+        else:
+            part = 1.0 - abs(part % 2.0 - 1.0)
+        if min(part, 1.0 - part) > 0.08 or extend == "pad":
+            assert color == pytest.approx(ramp(RED, BLUE, part), abs=4 / 255)
+    (note,) = found.notes
+    assert str(note).startswith("sweep gradient drawn in ")
+
+
+def test_sweep_gradient_in_a_transform_masks_and_is_cut_by_its_outline():
+    colors = line((0, RED, 1), (1, BLUE, 0.5))
+    plain = fill_shape("disc", sweep(colors, *CENTER, 0, 360))
+    found = layers_of(transform_paint(plain, 0, 0.5, -0.5, 0, 700, 100))  # turned by 90 degrees
+    places = [(middle(700 - 0.5 * y), middle(100 + 0.5 * x)) for x, y in AROUND]
+    for (x, y), color in zip(places, colour_at(found, *places), strict=True):
+        angle = np.degrees(np.arctan2(700 - x - 0.5 * CENTER[1], y - 100 - 0.5 * CENTER[0])) % 360
+        assert color == pytest.approx(premultiplied_ramp(angle / 360), abs=4 / 255)
+    assert colour_at(found, (475, 150))[0] == pytest.approx([0, 0, 0, 0])  # outside the disc
+
+
+def premultiplied_ramp(part):
+    """From red to blue of half the opacity, which are mixed premultiplied."""
+    one, other = (np.array([*PALETTE[color][:3], 1.0]) * PALETTE[color][3] for color in (RED, BLUE))
+    return (1.0 - part) * one + part * 0.5 * other
+
+
+def test_sweep_gradient_that_repeats_very_often_is_its_mean():
+    colors = line((0, RED, 1), (0.001, BLUE, 1), extend="repeat")
+    found = layers_of(fill_shape("disc", sweep(colors, *CENTER, 0, 180)))
+    assert [str(note) for note in found.notes] == ["sweep gradient that repeats very often, shown as its mean colour"]
 
 
 def test_a_transform_moves_outline_and_gradient():

@@ -46,7 +46,7 @@ export function stopsInLinearLight(stops, most) {
  * @param {Stop[]} found
  */
 function addHalves(before, after, bend, found) {
-  const middle = mixed(before, after, 0.5);
+  const middle = mixStops(before, after, 0.5);
   if (!(before.offset < middle.offset && middle.offset < after.offset && distance(before, after) > bend)) return;
   addHalves(before, middle, bend, found);
   found.push(middle);
@@ -59,7 +59,7 @@ function addHalves(before, after, bend, found) {
  * @param {number} part
  * @returns {Stop} the stop between two, in linear light; opacity is interpolated as it is
  */
-function mixed(before, after, part) {
+function mixStops(before, after, part) {
   const color = before.color.map((one, k) => encode(decode(one) + part * (decode(after.color[k]) - decode(one))));
   return {
     offset: before.offset + part * (after.offset - before.offset), color: /** @type {Color} */ (color),
@@ -74,7 +74,7 @@ function mixed(before, after, part) {
  */
 function distance(before, after) {
   const away = PARTS.map((part) => {
-    const { color } = mixed(before, after, part);
+    const { color } = mixStops(before, after, part);
     return Math.max(...color.map((one, k) => Math.abs(one - before.color[k] - part * (after.color[k] - before.color[k]))));
   });
   return Math.max(...away);

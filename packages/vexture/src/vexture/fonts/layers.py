@@ -14,6 +14,7 @@ from vexture.drawing.drawing import Path
 from vexture.drawing.group import Blend, Group, Mask
 from vexture.drawing.paint import BLACK, Color, Paint
 from vexture.fonts.paint_tree import Clip, Composite, Contours, Fill, Node, paint_tree, rectangle
+from vexture.fonts.sweeps import Box, SweepFill
 
 MOST_PATHS: Final = 10_000
 """Most paths and groups of one glyph; groups that mask each other paint their content several times."""
@@ -95,9 +96,6 @@ def other_kind(font: Any, glyph: int) -> str | None:
     return None
 
 
-Box = tuple[float, float, float, float]
-
-
 def bounds_of(nodes: Sequence[Node]) -> Box:
     """Return the box (left, bottom, right, top) of the clips among nodes; unclipped content is left out."""
     boxes = []
@@ -113,7 +111,7 @@ def bounds_of(nodes: Sequence[Node]) -> Box:
 
 def is_plain(node: Node) -> bool:
     """Return whether the content of a node composites normally with what is below, so that it needs no group."""
-    if isinstance(node, Fill):
+    if isinstance(node, Fill | SweepFill):
         return True
     return (isinstance(node, Clip) or node.mode == "SRC_OVER") and all(map(is_plain, node.children))
 
@@ -172,6 +170,10 @@ class LayerStack:
         for node in nodes:
             if isinstance(node, Fill):
                 self.path(self.everywhere, node.paint, group, black)
+            elif isinstance(node, SweepFill):
+                if self.everywhere:
+                    for contour, paint in node.triangles(self.box):
+                        self.path((contour,), paint, group, black)
             elif isinstance(node, Clip):
                 self._clip(node, group, black)
             else:

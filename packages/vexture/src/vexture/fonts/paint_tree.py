@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cache
 from itertools import pairwise
-from math import hypot
+from math import hypot, pi
 from typing import Any, Final, TypeAlias
 
 import numpy as np
@@ -19,6 +19,7 @@ from vexture.bezier.convert import line_cubics
 from vexture.drawing.affine import Affine
 from vexture.drawing.paint import Color, Gradient, Paint, Spread, Stop
 from vexture.fonts.engine import harfbuzz
+from vexture.fonts.sweeps import SweepFill, sweep_courses
 
 Contours: TypeAlias = tuple[NDArray[np.float64], ...]
 
@@ -60,7 +61,7 @@ class Composite:
     children: list["Node"] = field(default_factory=list)
 
 
-Node: TypeAlias = Fill | Clip | Composite
+Node: TypeAlias = Fill | SweepFill | Clip | Composite
 
 
 def paint_tree(font: Any, glyph: int, outline: Callable[[int], Contours], foreground: Color, notes: Notes) -> Composite:
@@ -114,6 +115,13 @@ class GlyphPainter:
         p, q, r, s = (part / determinant for part in (e, -b, -d, a))
         self.open[-1].children.append(Fill(paint.after(((p, q, -p * c - q * f), (r, s, -r * c - s * f)))))
 
+    def sweep(self, line: Any, numbers: tuple[float, ...]) -> None:
+        """Add a sweep gradient, unless it or the current transform makes it invisible."""
+        (a, b, _), (d, e, _) = self.matrices[-1]
+        found = swept(line, numbers, self.foreground, self.matrices[-1], self.notes) if a * e - b * d != 0.0 else None
+        if found is not None:
+            self.open[-1].children.append(found)
+
 
 def transform_contour(contour: NDArray[np.float64], matrix: Affine) -> NDArray[np.float64]:
     """Transform a contour by an affine map."""
@@ -144,7 +152,7 @@ def paint_funcs() -> Any:
     funcs.set_radial_gradient_func(
         lambda line, *args: args[-1].fill(radial(line, args[:-1], args[-1].foreground, args[-1].notes))
     )
-    funcs.set_sweep_gradient_func(lambda line, *args: args[-1].fill(swept(line, args[-1].foreground, args[-1].notes)))
+    funcs.set_sweep_gradient_func(lambda line, *args: args[-1].sweep(line, args[:-1]))
     return funcs
 
 
@@ -266,10 +274,30 @@ def mean(stops: tuple[Stop, ...]) -> Paint:
     return replace(Paint.from_gradient(Gradient(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), stops)), gradient=None)
 
 
-def swept(line: Any, foreground: Color, notes: Notes) -> Paint | None:
-    """Return the mean colour of a sweep gradient, which vexture does not support."""
+def swept(
+    line: Any, numbers: tuple[float, ...], foreground: Color, matrix: Affine, notes: Notes
+) -> SweepFill | Fill | None:
+    """Return a sweep gradient about a point from one angle to another, in radians; None if it is invisible.
+
+    `matrix` maps its coordinates to font units.
+    """
+    x, y, start, end = numbers
     found = line_of(line, foreground)
     if found is None:
         return None
-    notes.simplification("sweep gradient shown as its mean colour")
-    return mean(found[2])
+    first, last, stops = found
+    spread = spread_of(line)
+    turns = start / (2.0 * pi), end / (2.0 * pi)
+    if first == last and spread is not Spread.PAD:
+        return Fill(flat(stops[-1]))
+    if start == end and spread is not Spread.PAD:
+        return None
+    places = [first + stop.offset * (last - first) for stop in stops]
+    plain = [replace(stop, offset=0.0) for stop in stops]
+    courses = sweep_courses(plain, places, turns, spread)
+    if not courses:
+        notes.simplification("sweep gradient that repeats very often, shown as its mean colour")
+        return Fill(mean(stops))
+    sweep = SweepFill(courses, (x, y), matrix)
+    notes.simplification(f"sweep gradient drawn in {len(sweep.sectors)} sectors")
+    return sweep

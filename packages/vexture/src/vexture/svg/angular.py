@@ -14,7 +14,8 @@ from lxml import etree
 from vexture.drawing.calculation import parse_tokens
 from vexture.drawing.drawing import FillRule
 from vexture.drawing.paint import Paint, Stop
-from vexture.svg.css_gradients import CssGradient, between, read_function
+from vexture.drawing.sectors import MOST_SECTORS, Course, overlapping, reach_beyond, sectors_of
+from vexture.svg.css_gradients import CssGradient, read_function
 from vexture.svg.declarations import read_style
 from vexture.svg.document import HTML
 from vexture.svg.images import image_sides
@@ -30,18 +31,9 @@ CONIC: Final = frozenset({"conic-gradient", "repeating-conic-gradient"})
 FILLING: Final = {"width": ("100%", "auto"), "height": ("100%",)}
 """Sizes with which an HTML box fills the element around it."""
 
-STEP: Final = 4 / 255
-"""Largest difference of a channel between neighbouring sectors: each sector is exact to 2/255."""
 
-MOST_SECTORS: Final = 180
 MOST_COURSES: Final = 2 * MOST_SECTORS
 """Most courses around a turn; each takes at least one sector."""
-
-WIDEST: Final = 1 / 8
-"""Largest angle of a sector, in turns. Wider sectors are divided, so that their triangles reach beyond the box."""
-
-BEYOND: Final = 1.01
-"""Factor by which triangles reach beyond the necessary distance."""
 
 
 class AngularFill(NamedTuple):
@@ -49,38 +41,6 @@ class AngularFill(NamedTuple):
 
     gradient: CssGradient
     opacity: float
-
-
-class Course(NamedTuple):
-    """A part of a turn, clockwise, in which one colour changes to another; the offsets of its stops are meaningless."""
-
-    begin: float
-    end: float
-    first: Stop
-    last: Stop
-
-    def color(self, at: float) -> Stop:
-        """Return the colour at a position in the course."""
-        share = (at - self.begin) / (self.end - self.begin)
-        return between(replace(self.first, offset=0.0), replace(self.last, offset=1.0), share)
-
-    def within(self, low: float, high: float) -> "Course":
-        """Return the part of the course within a range."""
-        begin, end = max(self.begin, low), min(self.end, high)
-        return Course(begin, end, self.color(begin), self.color(end))
-
-    @property
-    def change(self) -> float:
-        """Largest change of a channel."""
-        before, after = ((*stop.color, stop.opacity) for stop in (self.first, self.last))
-        return max(abs(a - b) for a, b in zip(before, after, strict=True))
-
-    def sectors(self, step: float) -> "list[Course]":
-        """Divide the course into sectors, each in the colour of its middle."""
-        count = max(ceil(self.change / step - 1e-9), ceil((self.end - self.begin) / WIDEST), 1)
-        ends = np.linspace(self.begin, self.end, count + 1).tolist()
-        middles = [self.color((begin + end) / 2.0) for begin, end in pairwise(ends)]
-        return [Course(*pair, color, color) for pair, color in zip(pairwise(ends), middles, strict=True)]
 
 
 class AngularScene(Protocol):
@@ -114,9 +74,7 @@ def paint_angular(scene: AngularScene, element: etree._Element, place: ElementPl
     if found is None or not courses:
         scene.report.left_out("angular gradient", element)
         return
-    count = sum(len(course.sectors(STEP)) for course in courses)
-    step = STEP * max(count / MOST_SECTORS, 1.0)
-    sectors = [sector for course in courses for sector in course.sectors(step)]
+    sectors = sectors_of(courses)
     if any(course.change for course in courses):
         scene.report.simplification(f"angular gradient drawn in {len(sectors)} sectors", element)
     inner = replace(place, space=place.space.window(box, Identity))
@@ -125,18 +83,6 @@ def paint_angular(scene: AngularScene, element: etree._Element, place: ElementPl
         if paint.opacity > 0.0:
             loop = triangle(sector, box, *found)
             painter.add([loop.loop], inner, FillRule.NONZERO, paint, place.name)
-
-
-def overlapping(sectors: list[Course]) -> list[Course]:
-    """Extend opaque sectors to the end of the next one, in painting order, so that no gaps show between them.
-
-    Translucent sectors only touch, because overlaps would show.
-    """
-    if any(sector.first.opacity < 1.0 for sector in sectors):
-        return sectors
-    *others, before, last = sectors
-    lowest = last._replace(begin=before.begin, end=last.end + sectors[0].end - sectors[0].begin)
-    return [lowest, *(one._replace(end=after.end) for one, after in pairwise([*others, before])), before]
 
 
 def center_of(shape: str, box: Rectangle, place: ElementPlace) -> tuple[float, float, float] | None:
@@ -153,7 +99,7 @@ def triangle(sector: Course, box: Rectangle, x: float, y: float, start: float) -
     """Return a sector about a point as a triangle that reaches beyond a box."""
     left, top, width, height = box
     far = hypot(max(abs(x - left), abs(left + width - x)), max(abs(y - top), abs(top + height - y)))
-    reach = BEYOND * far / cos(pi * (sector.end - sector.begin))
+    reach = reach_beyond(sector, far)
     turns = [2.0 * pi * (start + at) for at in (sector.begin, sector.end)]
     corners = [(x, y), *((x + reach * sin(turn), y - reach * cos(turn)) for turn in turns)]
     return ShapeOutline.polygon(np.array(corners), closed=True)

@@ -13,6 +13,7 @@ from vexture.drawing.affine import Affine
 from vexture.drawing.calculation import keyword, parse_tokens, split_arguments
 from vexture.drawing.colors import Color, parse_color
 from vexture.drawing.paint import Gradient, Paint, Spread, Stop
+from vexture.drawing.sectors import between
 from vexture.svg.style import ElementStyle
 from vexture.svg.transform import KEYWORDS, Length, angle, parse_origin
 from vexture.svg.values import Viewport, words
@@ -281,13 +282,3 @@ def add_mixed_stops(stops: list[Stop]) -> list[Stop]:
             found += [between(before, after, part / MIXED) for part in range(1, MIXED)]
         found.append(after)
     return found
-
-
-def between(before: Stop, after: Stop, share: float) -> Stop:
-    """Interpolate between two stops."""
-    opacity = before.opacity + (after.opacity - before.opacity) * share
-    if opacity == 0.0:
-        return Stop(before.offset + (after.offset - before.offset) * share, before.color, 0.0)
-    ours, theirs = before.opacity * (1.0 - share) / opacity, after.opacity * share / opacity
-    red, green, blue = (min(a * ours + b * theirs, 1.0) for a, b in zip(before.color, after.color, strict=True))
-    return Stop(before.offset + (after.offset - before.offset) * share, (red, green, blue), opacity)

@@ -52,14 +52,14 @@ def stops_in_linear_light(stops: tuple[Stop, ...], most: int) -> tuple[tuple[Sto
 
 def halves(before: Stop, after: Stop, bend: float) -> Iterator[Stop]:
     """Yield the stops that are needed between two, in order: each one in the middle of others."""
-    middle = mixed(before, after, 0.5)
+    middle = mix_stops(before, after, 0.5)
     if before.offset < middle.offset < after.offset and distance(before, after) > bend:
         yield from halves(before, middle, bend)
         yield middle
         yield from halves(middle, after, bend)
 
 
-def mixed(before: Stop, after: Stop, part: float) -> Stop:
+def mix_stops(before: Stop, after: Stop, part: float) -> Stop:
     """Return the stop between two, in linear light; opacity is interpolated as it is."""
     red, green, blue = (
         encode(decode(one) + part * (decode(other) - decode(one)))
@@ -74,7 +74,7 @@ def distance(before: Stop, after: Stop) -> float:
     """Return the largest distance of a component in linear light from the straight line between two stops."""
     found = 0.0
     for part in PARTS:
-        color = mixed(before, after, part).color
+        color = mix_stops(before, after, part).color
         for k in range(3):
             found = max(found, abs(color[k] - before.color[k] - part * (after.color[k] - before.color[k])))
     return found

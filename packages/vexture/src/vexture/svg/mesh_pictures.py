@@ -75,7 +75,7 @@ def mesh_picture(mesh: Mesh, shape: Values, scales: tuple[float, float]) -> Pict
     steps = np.array([width / (columns - gaps), height / (rows - gaps)])
     columns, rows = columns + 2 * rim, rows + 2 * rim
     corner = np.array([left, top]) - (rim + 0.5 * gaps) * steps
-    colors, shares = sampled(mesh, corner, steps / FINER, (columns * FINER, rows * FINER))
+    colors, shares = sample_cells(mesh, corner, steps / FINER, (columns * FINER, rows * FINER))
     colors, shares = (cells.reshape(rows, FINER, columns, FINER, -1).sum(axis=(1, 3)) for cells in (colors, shares))
     if is_whole:
         for _ in range(BEYOND):
@@ -89,7 +89,7 @@ def mesh_picture(mesh: Mesh, shape: Values, scales: tuple[float, float]) -> Pict
     return Picture(((a, 0.0, -a * x), (0.0, b, -b * y)), pixels.astype(np.uint8))
 
 
-def sampled(mesh: Mesh, corner: Values, steps: Values, size: tuple[int, int]) -> tuple[Values, Values]:
+def sample_cells(mesh: Mesh, corner: Values, steps: Values, size: tuple[int, int]) -> tuple[Values, Values]:
     """Return the premultiplied colours of cells, (rows, columns, 4), and 1 for those that the mesh reaches, else 0.
 
     Later patches cover earlier ones.
