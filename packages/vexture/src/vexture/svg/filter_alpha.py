@@ -9,15 +9,15 @@ from vexture.drawing.drawing import Path
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Color, Paint
 from vexture.svg.compositing import Box, masking
-from vexture.svg.filter_colors import ColorFunction, change_paint, recolor_paint, to_linear, unchanged
+from vexture.svg.filter_colors import ColorFunction, change_paint, pass_values, recolor_paint, to_linear
 from vexture.svg.filter_composite import outside
-from vexture.svg.filter_content import Content, InexactError, flood, stack
+from vexture.svg.filter_content import FilterContent, InexactError, flood, stack
 
 ONE_BY_ONE: Final = "translucent shapes that overlap are changed one by one"
 SOFT: Final = "the change of soft opacities is not exact"
 
 
-def recolor(content: Content, color: Color, element: str | None = None) -> Content:
+def recolor(content: FilterContent, color: Color, element: str | None = None) -> FilterContent:
     """Return the content in one colour, with its opacities; it gets a name, if there is one."""
     groups = tuple(
         group if group.blend in (Blend.NORMAL, Blend.PLUS_LIGHTER) else replace(group, blend=Blend.NORMAL)
@@ -28,10 +28,10 @@ def recolor(content: Content, color: Color, element: str | None = None) -> Conte
     def change(path: Path) -> Paint | None:
         return None if id(path) in hidden else recolor_paint(path.paint, color)
 
-    return Content(content.paths, groups).with_paints(change, element)
+    return FilterContent(content.paths, groups).with_paints(change, element)
 
 
-def repeated_outlines(content: Content) -> list[Path]:
+def repeated_outlines(content: FilterContent) -> list[Path]:
     """Return the paths that add no opacity, because an opaque path of the same group has the same outlines."""
     opaque: set[tuple[object, ...]] = set()
     translucent: list[tuple[tuple[object, ...], Path]] = []
@@ -45,8 +45,8 @@ def repeated_outlines(content: Content) -> list[Path]:
 
 
 def change_colors(
-    content: Content, function: ColorFunction, region: Box, element: str, remarks: dict[str, None]
-) -> Content:
+    content: FilterContent, function: ColorFunction, region: Box, element: str, remarks: dict[str, None]
+) -> FilterContent:
     """Return the content after a function of colours; `remarks` get what is not exact."""
     if function.reads_colors:
         return alpha_of_colors(content, function, region, element, remarks)
@@ -62,7 +62,7 @@ def change_colors(
     return change_alpha(changed, function, remarks)
 
 
-def change_each(content: Content, function: ColorFunction, remarks: dict[str, None]) -> Content:
+def change_each(content: FilterContent, function: ColorFunction, remarks: dict[str, None]) -> FilterContent:
     """Return the content with the colours of each path changed, but not their opacities."""
     colors = function.of_colors
     if not content.is_plain:
@@ -75,7 +75,9 @@ def change_each(content: Content, function: ColorFunction, remarks: dict[str, No
     return content.with_paints(lambda path: change_paint(path.paint, colors))
 
 
-def fill_region(content: Content, function: ColorFunction, empty: Paint, region: Box, element: str) -> Content:
+def fill_region(
+    content: FilterContent, function: ColorFunction, empty: Paint, region: Box, element: str
+) -> FilterContent:
     """Return the content after a function that makes transparency visible."""
     rest, full = empty.opacity, function.alpha(1.0)
     ground = flood(region, Paint(empty.color), element)
@@ -93,7 +95,7 @@ def fill_region(content: Content, function: ColorFunction, empty: Paint, region:
     raise InexactError("it makes transparency visible in several colours")
 
 
-def change_alpha(content: Content, function: ColorFunction, remarks: dict[str, None]) -> Content:
+def change_alpha(content: FilterContent, function: ColorFunction, remarks: dict[str, None]) -> FilterContent:
     """Return the content with its opacities changed by a function that keeps transparency."""
     full = function.alpha(1.0)
     is_scale = all(abs(function.alpha(part) - part * full) < 1e-9 for part in (0.25, 0.5, 0.75))
@@ -120,7 +122,7 @@ def change_alpha(content: Content, function: ColorFunction, remarks: dict[str, N
         return change_paint(paint, alphas)
 
     groups = tuple(group if masks[place] else replace(group, opacity=1.0) for place, group in enumerate(content.groups))
-    return Content(content.with_paints(change).paths, groups)
+    return FilterContent(content.with_paints(change).paths, groups)
 
 
 def alpha_of(path: Path, opacities: dict[int, float]) -> float:
@@ -134,15 +136,15 @@ def only_alpha(function: ColorFunction) -> ColorFunction:
     """Return the same function without its change of colours."""
     if function.matrix is None:
         assert function.channels is not None
-        return ColorFunction(channels=(unchanged, unchanged, unchanged, function.channels[3]))
+        return ColorFunction(channels=(pass_values, pass_values, pass_values, function.channels[3]))
     matrix = np.eye(4, 5)
     matrix[3] = function.matrix[3]
     return ColorFunction(matrix)
 
 
 def alpha_of_colors(
-    content: Content, function: ColorFunction, region: Box, element: str, remarks: dict[str, None]
-) -> Content:
+    content: FilterContent, function: ColorFunction, region: Box, element: str, remarks: dict[str, None]
+) -> FilterContent:
     """Return the content with opacities that depend on colours: a rectangle of one colour, masked by them."""
     color, constant = function.color((0.0, 0.0, 0.0), 0.0)
     if constant > 0.0 or function.constant is None:
@@ -155,12 +157,12 @@ def alpha_of_colors(
         remarks[SOFT] = None
     grey = content.with_paints(lambda path: grey_paint(path.paint, ColorFunction(matrix), function.is_linear))
     box = content.box
-    return Content() if box is None else flood(box, Paint(color), element).masked_by(grey, Mask.LUMINANCE)
+    return FilterContent() if box is None else flood(box, Paint(color), element).masked_by(grey, Mask.LUMINANCE)
 
 
 def grey_paint(paint: Paint, function: ColorFunction, is_linear: bool) -> Paint:
     """Return a paint in the greys whose luminance a function yields, of colours in linear light if `is_linear`."""
     if not is_linear:
         return change_paint(paint, function)
-    lit = change_paint(paint, ColorFunction(channels=(to_linear, to_linear, to_linear, unchanged)))
+    lit = change_paint(paint, ColorFunction(channels=(to_linear, to_linear, to_linear, pass_values)))
     return change_paint(lit, function)

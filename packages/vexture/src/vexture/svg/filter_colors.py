@@ -103,7 +103,7 @@ class ColorFunction:
         if self.matrix is not None:
             return bool((self.matrix[3] == (0.0, 0.0, 0.0, 1.0, 0.0)).all())
         assert self.channels is not None
-        return self.channels[3] is unchanged
+        return self.channels[3] is pass_values
 
     @property
     def mixes_alpha(self) -> bool:
@@ -120,7 +120,7 @@ class ColorFunction:
         """The function without its change of opacities."""
         if self.matrix is None:
             assert self.channels is not None
-            return replace(self, channels=(*self.channels[:3], unchanged))
+            return replace(self, channels=(*self.channels[:3], pass_values))
         matrix = self.matrix.copy()
         matrix[3] = (0.0, 0.0, 0.0, 1.0, 0.0)
         return replace(self, matrix=matrix)
@@ -133,7 +133,7 @@ class ColorFunction:
         return float(np.clip(self.matrix[3, 3] * opacity + self.matrix[3, 4], 0.0, 1.0))
 
 
-def unchanged(values: Colors) -> Colors:
+def pass_values(values: Colors) -> Colors:
     """Return the values."""
     return values
 

@@ -10,7 +10,7 @@ from vexture.drawing.paint import Paint
 from vexture.svg.compositing import Box, meet
 from vexture.svg.filter_colors import recolor_paint
 from vexture.svg.filter_content import (
-    Content,
+    FilterContent,
     InexactError,
     blend_group,
     flood,
@@ -28,38 +28,38 @@ SAME: Final = 1e-6
 FACTORS: Final = "its factors {} are not drawn for such shapes"
 
 
-def inside(shown: Content, around: Content) -> Content:
+def inside(content: FilterContent, around: FilterContent) -> FilterContent:
     """Return the first content where the second one is, times its opacity."""
-    box, other = shown.box, around.box
+    box, other = content.box, around.box
     if box is None or other is None or not meet(box, other):
-        return Content()
-    only, mask = shown.only_path, around.only_path
+        return FilterContent()
+    only, mask = content.only_path, around.only_path
     if only is not None and is_flat(only.paint) and is_rectangle(only):
         part = around.cut(box) if not holds(box, other) else around
         colored = part.with_paints(lambda path: recolor_paint(path.paint, only.paint.color), only.element)
         if around.is_plain:
             return colored.fade(only.paint.opacity)
     if mask is not None and is_flat(mask.paint) and is_rectangle(mask):
-        return shown.cut(other).fade(mask.paint.opacity)
-    return shown.masked_by(around, Mask.OPACITY)
+        return content.cut(other).fade(mask.paint.opacity)
+    return content.masked_by(around, Mask.OPACITY)
 
 
-def outside(shown: Content, around: Content) -> Content:
+def outside(content: FilterContent, around: FilterContent) -> FilterContent:
     """Return the first content where the second one is not: times 1 minus its opacity."""
-    box, other = shown.box, around.box
+    box, other = content.box, around.box
     if box is None or other is None or not meet(box, other):
-        return shown
-    only, soft = shown.only_path, around.only_path
+        return content
+    only, soft = content.only_path, around.only_path
     if only is not None and soft is not None and is_flat(only.paint):
         blur = inverse_of(soft, box)
         if blur is not None:
-            return Content((replace(only, paint=replace(only.paint, blur=blur)),))
+            return FilterContent((replace(only, paint=replace(only.paint, blur=blur)),))
     shared = meeting(box, other) or box
     black = around.with_paints(lambda path: recolor_paint(path.paint, BLACK))
     if not around.is_plain:
-        black = Content(black.paths, tuple(replace(group, blend=Blend.NORMAL) for group in black.groups))
+        black = FilterContent(black.paths, tuple(replace(group, blend=Blend.NORMAL) for group in black.groups))
     ground = flood((*box[:2], *box[2:]), WHITE)
-    return shown.masked_by(stack([ground, black.cut(shared)]), Mask.LUMINANCE)
+    return content.masked_by(stack([ground, black.cut(shared)]), Mask.LUMINANCE)
 
 
 def is_flat(paint: Paint) -> bool:
@@ -97,7 +97,7 @@ def source_box(blur: Blur) -> tuple[list[float], list[float]]:
     return least, most
 
 
-def add_light(upper: Content, lower: Content) -> Content:
+def add_light(upper: FilterContent, lower: FilterContent) -> FilterContent:
     """Return the sum of two contents."""
     box, other = upper.box, lower.box
     if box is None or other is None or not meet(box, other):
@@ -105,14 +105,14 @@ def add_light(upper: Content, lower: Content) -> Content:
     return blend_group(upper, lower, Blend.PLUS_LIGHTER)
 
 
-def blend(upper: Content, lower: Content, mode: Blend) -> Content:
+def blend(upper: FilterContent, lower: FilterContent, mode: Blend) -> FilterContent:
     """Return the first content blended onto the second one."""
     if mode is Blend.NORMAL or not upper.paths or not lower.paths:
         return stack([lower, upper])
     return blend_group(upper, lower, mode)
 
 
-def composite(upper: Content, lower: Content, operator: str) -> Content:
+def composite(upper: FilterContent, lower: FilterContent, operator: str) -> FilterContent:
     """Return the first content composited with the second one by an operator of Porter and Duff."""
     match operator:
         case "in":
@@ -130,14 +130,14 @@ def composite(upper: Content, lower: Content, operator: str) -> Content:
     return stack([lower, upper])
 
 
-def combine(upper: Content, lower: Content, factors: tuple[float, float, float, float]) -> Content:
+def combine(upper: FilterContent, lower: FilterContent, factors: tuple[float, float, float, float]) -> FilterContent:
     """Return the arithmetic composite of two contents, if there is an equal one of other operators.
 
     It is k1 i1 i2 + k2 i1 + k3 i2 + k4 for colours times opacities, and for opacities.
     """
     product, first, second, constant = factors
     if abs(constant) > SAME:
-        raise InexactError(FACTORS.format(listed(factors)))
+        raise InexactError(FACTORS.format(list_factors(factors)))
     if not upper.visible or not lower.visible:
         return scale(upper, first, factors) if upper.visible else scale(lower, second, factors)
     if abs(product) <= SAME:
@@ -145,7 +145,7 @@ def combine(upper: Content, lower: Content, factors: tuple[float, float, float, 
     rest = first, second
     both = multiply(upper, lower)
     if both is None:
-        raise InexactError(FACTORS.format(listed(factors)))
+        raise InexactError(FACTORS.format(list_factors(factors)))
     if product > 0.0 and rest == (0.0, 0.0):
         return scale(both, product, factors)
     if product < 0.0 and lower.color == (1.0, 1.0, 1.0) and abs(first + product) <= SAME and second == 0.0:
@@ -156,24 +156,26 @@ def combine(upper: Content, lower: Content, factors: tuple[float, float, float, 
         return add_light(
             scale(both, product, factors), add_light(scale(upper, first, factors), scale(lower, second, factors))
         )
-    raise InexactError(FACTORS.format(listed(factors)))
+    raise InexactError(FACTORS.format(list_factors(factors)))
 
 
-def combine_sums(upper: Content, lower: Content, factors: tuple[float, float, float, float]) -> Content:
+def combine_sums(
+    upper: FilterContent, lower: FilterContent, factors: tuple[float, float, float, float]
+) -> FilterContent:
     """Return the arithmetic composite without a product."""
     _, first, second, _ = factors
     if first >= 0.0 and second >= 0.0:
         return add_light(scale(upper, first, factors), scale(lower, second, factors))
     if first <= 0.0 and second <= 0.0:
-        return Content()
+        return FilterContent()
     less, more, part, whole = (upper, lower, -first, second) if first < 0.0 else (lower, upper, -second, first)
     is_even = less.color is not None and less.color == more.color
     if is_even and more.is_opaque and part <= 1.0 and abs(whole - 1.0) <= SAME:
         return outside(more, less.fade(part))
-    raise InexactError(FACTORS.format(listed(factors)))
+    raise InexactError(FACTORS.format(list_factors(factors)))
 
 
-def multiply(upper: Content, lower: Content) -> Content | None:
+def multiply(upper: FilterContent, lower: FilterContent) -> FilterContent | None:
     """Return the product of two contents; None if both have several colours."""
     if upper.color is None and lower.color is None:
         return None
@@ -190,15 +192,15 @@ def multiply(upper: Content, lower: Content) -> Content | None:
     return inside(other, mask)
 
 
-def scale(content: Content, factor: float, factors: tuple[float, float, float, float]) -> Content:
+def scale(content: FilterContent, factor: float, factors: tuple[float, float, float, float]) -> FilterContent:
     """Return the content with its light and opacity multiplied."""
     if factor <= 1.0 + SAME:
         return content.fade(factor)
     if content.is_opaque and content.color == BLACK:
         return content
-    raise InexactError(FACTORS.format(listed(factors)))
+    raise InexactError(FACTORS.format(list_factors(factors)))
 
 
-def listed(factors: tuple[float, float, float, float]) -> str:
+def list_factors(factors: tuple[float, float, float, float]) -> str:
     """Return the text of factors."""
     return ", ".join(f"{factor:g}" for factor in factors)

@@ -1,4 +1,4 @@
-"""Content of filters: what their steps read and produce, as small drawings in the user units of an element, y down."""
+"""What the steps of filters read and produce: small drawings in the user units of an element, y down."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
@@ -40,7 +40,7 @@ class InexactError(FilterLimitError):
 
 
 @dataclass(frozen=True, eq=False)
-class Content:
+class FilterContent:
     """Paths and groups, as those of a drawing."""
 
     paths: tuple[Path, ...] = ()
@@ -101,7 +101,7 @@ class Content:
         """The path, if there is only one, and no group."""
         return self.paths[0] if len(self.paths) == 1 and not self.groups else None
 
-    def move(self, matrix: Transform) -> "Content":
+    def move(self, matrix: Transform) -> "FilterContent":
         """Return the content after an affine map."""
         if matrix == Identity:
             return self
@@ -114,13 +114,13 @@ class Content:
             )
             for path in self.paths
         )
-        return Content(tuple(moved), self.groups)
+        return FilterContent(tuple(moved), self.groups)
 
-    def cut(self, region: Box | None) -> "Content":
+    def cut(self, region: Box | None) -> "FilterContent":
         """Return the part inside a region; None is everything."""
         box = self.box
         if region is None or box is None:
-            return self if box is not None else Content()
+            return self if box is not None else FilterContent()
         spare = min(SLIVER, SLIVER_SHARE * max(min(region[2] - region[0], region[3] - region[1]), 0.0))
         near = [abs(side - edge) <= spare for side, edge in zip(box, region, strict=True)]
         low = [min(box[k], region[k]) if near[k] else region[k] for k in (0, 1)]
@@ -129,7 +129,7 @@ class Content:
             return self
         return self.cut_to(low, high)
 
-    def cut_to(self, low: list[float], high: list[float]) -> "Content":
+    def cut_to(self, low: list[float], high: list[float]) -> "FilterContent":
         """Return the part between two corners."""
         found = []
         if low[0] < high[0] and low[1] < high[1]:
@@ -142,9 +142,9 @@ class Content:
                 contours = tuple(part for part in parts if len(part))
                 if contours:
                     found.append(replace(path, contours=contours))
-        return Content(tuple(found), self.groups) if found else Content()
+        return FilterContent(tuple(found), self.groups) if found else FilterContent()
 
-    def with_paints(self, change: Callable[[Path], Paint | None], element: str | None = None) -> "Content":
+    def with_paints(self, change: Callable[[Path], Paint | None], element: str | None = None) -> "FilterContent":
         """Return the content with other paints of all paths outside masks; None as a paint drops the path.
 
         They get the name `element`, if there is one.
@@ -157,12 +157,12 @@ class Content:
             paint = change(path)
             if paint is not None:
                 found.append(replace(path, paint=paint, element=path.element if element is None else element))
-        return Content(tuple(found), self.groups)
+        return FilterContent(tuple(found), self.groups)
 
-    def fade(self, opacity: float) -> "Content":
+    def fade(self, opacity: float) -> "FilterContent":
         """Return the content with an opacity."""
         if opacity <= 0.0:
-            return Content()
+            return FilterContent()
         if opacity >= 1.0:
             return self
         outside = all(group.outer < 0 for group in self.groups if group.opacity < 1.0)
@@ -170,24 +170,24 @@ class Content:
             return self.with_paints(lambda path: path.paint.fade(opacity))
         return self.inside(Group(opacity=opacity))
 
-    def inside(self, group: Group) -> "Content":
+    def inside(self, group: Group) -> "FilterContent":
         """Return the content in a group."""
-        return Content(*put_inside(self, group, 0))
+        return FilterContent(*put_inside(self, group, 0))
 
     @property
-    def isolated(self) -> "Content":
+    def in_isolation(self) -> "FilterContent":
         """The content in a group, if it has blend modes that would also affect what is below."""
         if all(group.blend is Blend.NORMAL or group.outer >= 0 for group in self.groups):
             return self
         return self.inside(Group())
 
-    def masked_by(self, mask: "Content", kind: Mask) -> "Content":
+    def masked_by(self, mask: "FilterContent", kind: Mask) -> "FilterContent":
         """Return the content, masked."""
         if not self.visible:
-            return Content()
+            return FilterContent()
         masks, inner = put_inside(mask, Group(0, mask=kind), 1)
         shown, groups = shift_groups(self, 1 + len(inner), 0)
-        return Content((*masks, *shown), (Group(), *inner, *groups))
+        return FilterContent((*masks, *shown), (Group(), *inner, *groups))
 
 
 def check_count(paths: int) -> None:
@@ -201,7 +201,7 @@ def box_of(path: Path) -> Box:
     return bounds(np.concatenate(path.contours))
 
 
-def shift_groups(content: Content, count: int, outer: int) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
+def shift_groups(content: FilterContent, count: int, outer: int) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
     """Renumber groups after `count` others; what is in none is then in the group `outer`."""
     paths = tuple(
         replace(path, group=path.group + count if path.group >= 0 else outer) if count or outer != path.group else path
@@ -211,23 +211,23 @@ def shift_groups(content: Content, count: int, outer: int) -> tuple[tuple[Path, 
     return paths, groups
 
 
-def put_inside(content: Content, group: Group, count: int) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
+def put_inside(content: FilterContent, group: Group, count: int) -> tuple[tuple[Path, ...], tuple[Group, ...]]:
     """Put content into a group that comes after `count` others."""
     paths, groups = shift_groups(content, count + 1, count)
     return paths, (group, *groups)
 
 
-def stack(contents: Iterable[Content]) -> Content:
+def stack(contents: Iterable[FilterContent]) -> FilterContent:
     """Return contents painted on one another, from the lowest."""
-    return join(content.isolated for content in contents)
+    return join(content.in_isolation for content in contents)
 
 
-def blend_group(upper: Content, lower: Content, mode: Blend) -> Content:
+def blend_group(upper: FilterContent, lower: FilterContent, mode: Blend) -> FilterContent:
     """Return a content blended onto another one."""
-    return join([lower.isolated, upper.inside(Group(blend=mode))]).inside(Group())
+    return join([lower.in_isolation, upper.inside(Group(blend=mode))]).inside(Group())
 
 
-def join(contents: Iterable[Content]) -> Content:
+def join(contents: Iterable[FilterContent]) -> FilterContent:
     """Return contents after one another."""
     paths: list[Path] = []
     groups: list[Group] = []
@@ -236,16 +236,16 @@ def join(contents: Iterable[Content]) -> Content:
         more, inner = shift_groups(content, len(groups), -1)
         paths += more
         groups += inner
-    return Content(tuple(paths), tuple(groups))
+    return FilterContent(tuple(paths), tuple(groups))
 
 
-def flood(box: Box, paint: Paint, element: str = "") -> Content:
+def flood(box: Box, paint: Paint, element: str = "") -> FilterContent:
     """Return a filled rectangle."""
     left, top, right, bottom = box
     if paint.opacity <= 0.0 or not (left < right and top < bottom):
-        return Content()
+        return FilterContent()
     outline = ShapeOutline.rectangle(left, top, right - left, bottom - top)
-    return Content((Path((outline.loop,), paint=paint, element=element),))
+    return FilterContent((Path((outline.loop,), paint=paint, element=element),))
 
 
 def is_rectangle(path: Path) -> bool:

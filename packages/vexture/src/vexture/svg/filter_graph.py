@@ -14,7 +14,7 @@ from vexture.svg.compositing import Box
 from vexture.svg.document import local_name
 from vexture.svg.filter_alpha import recolor
 from vexture.svg.filter_composite import BLACK
-from vexture.svg.filter_content import Content, FilterLimitError, flood, meeting
+from vexture.svg.filter_content import FilterContent, FilterLimitError, flood, meeting
 from vexture.svg.filter_soft import Sources
 from vexture.svg.images import ImageScene
 from vexture.svg.masks import REGION, MeasuredScene
@@ -70,7 +70,7 @@ class FilterScene(MeasuredScene, ImageScene, Protocol):
 
 
 @dataclass(slots=True)
-class Subject:
+class FilterSubject:
     """An element with a filter."""
 
     scene: FilterScene
@@ -104,7 +104,7 @@ class Subject:
 class StepResult:
     """The content that a step yields, with its region."""
 
-    content: Content
+    content: FilterContent
     region: Box
     is_standard: bool = False  # True for the inputs that the standard names
 
@@ -112,7 +112,7 @@ class StepResult:
 class FilterGraph:
     """The steps of one filter element, for one subject and what is drawn of it."""
 
-    def __init__(self, element: etree._Element, subject: Subject, source: Content) -> None:
+    def __init__(self, element: etree._Element, subject: FilterSubject, source: FilterContent) -> None:
         self.element = element
         self.subject = subject
         self.by_box = element.get("primitiveUnits") == "objectBoundingBox"
@@ -125,16 +125,16 @@ class FilterGraph:
         """Bounding box of the subject, in its user units."""
         return self.subject.scene.around(self.subject.element, self.subject.place)
 
-    def run(self, primitives: "dict[str, Callable[[FilterStep], Content]]") -> Content:
+    def run(self, primitives: "dict[str, Callable[[FilterStep], FilterContent]]") -> FilterContent:
         """Return the result of the last step, for steps by their names."""
         by_box = self.element.get("filterUnits") != "userSpaceOnUse"
         is_bounded = self.element.getparent() is not None
         if (by_box or self.by_box) and is_bounded and (self.box is None or min(self.box[2:]) <= 0.0):
-            return Content()  # as in browsers
+            return FilterContent()  # as in browsers
         if is_bounded:
             self.region = self.region_of(by_box)
         if not (self.region[0] < self.region[2] and self.region[1] < self.region[3]):
-            return Content()
+            return FilterContent()
         self.source = self.source.cut(self.region)
         steps = [FilterStep(self, child, k) for k, child in enumerate(filter(is_step, self.element))]
         last = len(steps) - 1
@@ -145,7 +145,7 @@ class FilterGraph:
             check_time()
             region = step.region
             seen = meeting(region, self.region)
-            content = Content() if seen is None else primitive(step).cut(seen)
+            content = FilterContent() if seen is None else primitive(step).cut(seen)
             self.subject.scene.sources.spend(1 + len(content.paths))
             self.results[step.index] = StepResult(content, region)
         return self.results[last].content
@@ -169,17 +169,17 @@ class FilterGraph:
                 content = self.paint_of(name.lower().removesuffix("paint"))
             case _:
                 self.subject.scene.report.once("left out", name, self.subject.element)
-                content = Content()
+                content = FilterContent()
         return StepResult(content, self.region, is_standard=True)
 
-    def paint_of(self, name: str) -> Content:
+    def paint_of(self, name: str) -> FilterContent:
         """Return the region in the paint of the subject, "fill" or "stroke"."""
         place = self.subject.place
         paint = self.subject.scene.servers.paint(name, place, [self.subject.scene.box(place)])
         if paint is not None and not isinstance(paint, Paint):
             self.subject.remarks["its pattern is drawn as solid"] = None
             paint = paint.solid
-        return Content() if paint is None else flood(self.region, paint, self.subject.own_name)
+        return FilterContent() if paint is None else flood(self.region, paint, self.subject.own_name)
 
 
 class FilterStep:
@@ -205,7 +205,7 @@ class FilterStep:
 
     @property
     def remarks(self) -> dict[str, None]:
-        """What is not exact."""
+        """Things that are not exact."""
         return self.subject.remarks
 
     def result(self, key: str = "in") -> StepResult:
@@ -215,7 +215,7 @@ class FilterStep:
             return self.graph.results[link]
         return self.graph.standard(link)
 
-    def input(self, key: str = "in") -> Content:
+    def input(self, key: str = "in") -> FilterContent:
         """Return the content of an input."""
         return self.result(key).content
 

@@ -16,11 +16,11 @@ from vexture.svg.filter_colors import (
     Colors,
     hue_matrix,
     luminance_matrix,
-    unchanged,
+    pass_values,
     weighted_matrix,
 )
 from vexture.svg.filter_composite import blend, combine, composite
-from vexture.svg.filter_content import Content, FilterLimitError, InexactError, flood, stack
+from vexture.svg.filter_content import FilterContent, FilterLimitError, InexactError, flood, stack
 from vexture.svg.filter_graph import FilterStep
 from vexture.svg.filter_sampled import (
     make_convolution,
@@ -43,13 +43,13 @@ MIXED: Final = "translucent colours are mixed in sRGB, not in linear light"
 OPERATORS: Final = frozenset({"over", "in", "out", "atop", "xor", "lighter", "arithmetic"})
 
 
-def make_offset(step: FilterStep) -> Content:
+def make_offset(step: FilterStep) -> FilterContent:
     """Move the input."""
     dx, dy = (step.number(name, 0.0) * step.along(axis) for axis, name in enumerate(("dx", "dy")))
     return step.input().move(Identity.translate(dx, dy))
 
 
-def make_flood(step: FilterStep) -> Content:
+def make_flood(step: FilterStep) -> FilterContent:
     """Fill the region of a step."""
     return flood(step.region, flood_paint(step), step.subject.own_name)
 
@@ -60,7 +60,7 @@ def flood_paint(step: FilterStep) -> Paint:
     return Paint(color.rgb, color.alpha * step.style.opacity("flood-opacity"))
 
 
-def make_merge(step: FilterStep) -> Content:
+def make_merge(step: FilterStep) -> FilterContent:
     """Stack the inputs."""
     contents = [step.input(key) for key in step.links]
     for place, content in enumerate(contents[1:], 1):
@@ -68,7 +68,7 @@ def make_merge(step: FilterStep) -> Content:
     return stack(contents)
 
 
-def note_linear(step: FilterStep, upper: Content, *lower: Content) -> None:
+def note_linear(step: FilterStep, upper: FilterContent, *lower: FilterContent) -> None:
     """Note that colours are not mixed in linear light, if that differs."""
     if not step.is_linear or not upper.visible or upper.is_opaque:
         return
@@ -76,7 +76,7 @@ def note_linear(step: FilterStep, upper: Content, *lower: Content) -> None:
         step.remarks[MIXED] = None
 
 
-def make_blend(step: FilterStep) -> Content:
+def make_blend(step: FilterStep) -> FilterContent:
     """Blend an input onto the other one."""
     text = step.element.get("mode", "normal").strip().lower()
     mode = BLENDS.get(text)
@@ -90,7 +90,7 @@ def make_blend(step: FilterStep) -> Content:
     return blend(upper, lower, mode)
 
 
-def make_composite(step: FilterStep) -> Content:
+def make_composite(step: FilterStep) -> FilterContent:
     """Composite the inputs."""
     operator = step.element.get("operator", "over").strip()
     upper, lower = step.input(), step.input("in2")
@@ -110,7 +110,7 @@ def make_composite(step: FilterStep) -> Content:
     return composite(upper, lower, operator)
 
 
-def is_even(content: Content) -> bool:
+def is_even(content: FilterContent) -> bool:
     """Return whether a content has one colour, the same in linear light, or none."""
     color = content.color
     return not content.visible or (color is not None and all(part in (0.0, 1.0) for part in color))
@@ -126,7 +126,7 @@ def deviations_of(step: FilterStep, default: float) -> tuple[float, float]:
     return (0.0, 0.0) if min(across, down) < 0.0 else (across, down)
 
 
-def soften(step: FilterStep, content: Content, deviations: tuple[float, float]) -> Content:
+def soften(step: FilterStep, content: FilterContent, deviations: tuple[float, float]) -> FilterContent:
     """Return a content blurred by a step."""
     names = {path.element for path in content.visible}
     name = names.pop() if len(names) == 1 else step.subject.place.name
@@ -134,12 +134,12 @@ def soften(step: FilterStep, content: Content, deviations: tuple[float, float]) 
     return blur_content(content, deviations, step.region, name, step.is_linear, step.remarks, sources)
 
 
-def make_blur(step: FilterStep) -> Content:
+def make_blur(step: FilterStep) -> FilterContent:
     """Blur the input."""
     return soften(step, step.input(), deviations_of(step, 0.0))
 
 
-def make_shadow(step: FilterStep) -> Content:
+def make_shadow(step: FilterStep) -> FilterContent:
     """Stack the input on its shadow."""
     paint, content = flood_paint(step), step.input()
     dx, dy = (step.number(name, 2.0) * step.along(axis) for axis, name in enumerate(("dx", "dy")))
@@ -149,7 +149,7 @@ def make_shadow(step: FilterStep) -> Content:
     return stack([shadow, content])
 
 
-def make_colors(step: FilterStep) -> Content:
+def make_colors(step: FilterStep) -> FilterContent:
     """Change colours by a matrix."""
     kind = step.element.get("type", "matrix").strip()
     values = step.numbers("values")
@@ -170,7 +170,7 @@ def make_colors(step: FilterStep) -> Content:
     return change(step, ColorFunction(matrix, is_linear=step.is_linear))
 
 
-def change(step: FilterStep, function: ColorFunction) -> Content:
+def change(step: FilterStep, function: ColorFunction) -> FilterContent:
     """Apply a function of colours to the input of a step."""
     content = step.input()
     if function.matrix is not None and np.array_equal(function.matrix, np.eye(4, 5)):
@@ -186,9 +186,9 @@ def change(step: FilterStep, function: ColorFunction) -> Content:
     return changed
 
 
-def make_transfer(step: FilterStep) -> Content:
+def make_transfer(step: FilterStep) -> FilterContent:
     """Change components by functions."""
-    found: list[Channel] = [unchanged] * 4
+    found: list[Channel] = [pass_values] * 4
     slopes: list[tuple[float, float] | None] = [(1.0, 0.0)] * 4
     for child in step.element:
         name = local_name(child) or ""
@@ -224,9 +224,9 @@ def channel_of(function: FilterStep) -> tuple[Channel, tuple[float, float] | Non
             offset = function.number("offset", 0.0)
             return (lambda c: gamma(c, amplitude, exponent, offset)), None
         case "identity" | "table" | "discrete":
-            return unchanged, (1.0, 0.0)
+            return pass_values, (1.0, 0.0)
     function.subject.scene.report.invalid("type", kind, function.element)
-    return unchanged, (1.0, 0.0)
+    return pass_values, (1.0, 0.0)
 
 
 def gamma(values: Colors, amplitude: float, exponent: float, offset: float) -> Colors:
@@ -236,7 +236,7 @@ def gamma(values: Colors, amplitude: float, exponent: float, offset: float) -> C
     return np.nan_to_num(found, nan=0.0, posinf=1.0, neginf=0.0)
 
 
-def make_tile(step: FilterStep) -> Content:
+def make_tile(step: FilterStep) -> FilterContent:
     """Repeat the part of the input in its region."""
     result = step.result()
     left, top, right, bottom = result.region
@@ -244,7 +244,7 @@ def make_tile(step: FilterStep) -> Content:
     content = result.content.cut(result.region)
     box = content.box
     if box is None or not (width > 0.0 and height > 0.0):
-        return Content()
+        return FilterContent()
     x, y, end, low = step.region
     columns = range(*whole_between((x - box[2]) / width, (end - box[0]) / width))
     rows = range(*whole_between((y - box[3]) / height, (low - box[1]) / height))
@@ -258,7 +258,7 @@ def whole_between(low: float, high: float) -> tuple[int, int]:
     return int(np.floor(low)) + 1, int(np.ceil(high))
 
 
-PRIMITIVES: Final[dict[str, Callable[[FilterStep], Content]]] = {
+PRIMITIVES: Final[dict[str, Callable[[FilterStep], FilterContent]]] = {
     "Blend": make_blend,
     "ColorMatrix": make_colors,
     "ComponentTransfer": make_transfer,

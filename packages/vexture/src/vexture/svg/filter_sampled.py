@@ -14,7 +14,7 @@ from vexture.drawing.paint import Paint
 from vexture.svg.compositing import Box
 from vexture.svg.document import local_name
 from vexture.svg.filter_colors import ColorFunction
-from vexture.svg.filter_content import Content, InexactError, flood, meeting
+from vexture.svg.filter_content import FilterContent, InexactError, flood, meeting
 from vexture.svg.filter_frame import EdgeMode, PixelFrame
 from vexture.svg.filter_graph import FilterStep
 from vexture.svg.filter_operations import (
@@ -41,12 +41,12 @@ EDGES: Final[dict[str, EdgeMode]] = {"none": "none", "duplicate": "duplicate", "
 CHANNELS: Final = "RGBA"
 
 
-def sample_step(step: FilterStep, operation: Operation) -> Content:
+def sample_step(step: FilterStep, operation: Operation) -> FilterContent:
     """Return the result of a step as a picture, and note its density."""
     left, top, right, bottom = square = square_of(step)
     visible = meeting(meeting(step.region, step.graph.region) or (0.0, 0.0, 0.0, 0.0), square)
     if visible is None:
-        return Content()
+        return FilterContent()
     depth = step.subject.scene.sources.depth_of(step.graph)
     pixel = (right - left) / (1 << depth)
     frame = PixelFrame(left, top, pixel, pixel, 1 << depth, 1 << depth)
@@ -97,7 +97,7 @@ def words_of(name: str) -> str:
     return "".join(f" {letter.lower()}" if letter.isupper() else letter for letter in name).strip()
 
 
-def make_turbulence(step: FilterStep) -> Content:
+def make_turbulence(step: FilterStep) -> FilterContent:
     """Make noise."""
     frequencies = step.numbers("baseFrequency") or [0.0]
     operation = Turbulence(
@@ -110,11 +110,11 @@ def make_turbulence(step: FilterStep) -> Content:
     return sample_step(step, operation)
 
 
-def make_lighting(step: FilterStep) -> Content:
+def make_lighting(step: FilterStep) -> FilterContent:
     """Light the surface whose height is the opacity of the input."""
     source = next((light for child in step.element if (light := light_of(step, child)) is not None), None)
     if source is None:
-        return Content()
+        return FilterContent()
     color = step.style.solid(step.style["lighting-color"]) or step.style.color
     is_shiny = step.name == "SpecularLighting"
     constant = step.number("specularConstant" if is_shiny else "diffuseConstant", 1.0)
@@ -146,14 +146,14 @@ def lengths_of(step: FilterStep) -> tuple[float, float]:
     return (values[0] * step.along(0), values[-1] * step.along(1)) if values else (1.0, 1.0)
 
 
-def make_convolution(step: FilterStep) -> Content:
+def make_convolution(step: FilterStep) -> FilterContent:
     """Sum weighted neighbours; as in browsers, a matrix that is not valid makes the result transparent."""
     orders = [int(value) for value in step.numbers("order")[:2] if value == int(value) and value > 0] or [3]
     columns, rows = orders[0], orders[-1]
     matrix = tuple(step.numbers("kernelMatrix"))
     x, y = step.number("targetX", columns // 2), step.number("targetY", rows // 2)
     if len(matrix) != columns * rows or not (0 <= x < columns and 0 <= y < rows):
-        return Content()
+        return FilterContent()
     divisor = step.number("divisor", 0.0) or sum(matrix) or 1.0
     operation = Convolution(
         (columns, rows),
@@ -168,14 +168,14 @@ def make_convolution(step: FilterStep) -> Content:
     return sample_step(step, operation)
 
 
-def make_displacement(step: FilterStep) -> Content:
+def make_displacement(step: FilterStep) -> FilterContent:
     """Move the first input by the second one."""
     x, y = (CHANNELS.find(step.element.get(name, "A").strip()) for name in ("xChannelSelector", "yChannelSelector"))
     scale = step.number("scale", 0.0) * step.along(0)
     return sample_step(step, Displacement(scale, (x if x >= 0 else 3, y if y >= 0 else 3)))
 
 
-def make_morphology(step: FilterStep) -> Content:
+def make_morphology(step: FilterStep) -> FilterContent:
     """Thin or thicken the input; as in browsers, radii that are not positive change nothing."""
     radii = step.numbers("radius") or [0.0]
     across, down = radii[0] * step.along(0), radii[-1] * step.along(1)
@@ -184,11 +184,11 @@ def make_morphology(step: FilterStep) -> Content:
     return sample_step(step, Morphology((across, down), step.element.get("operator", "").strip() == "dilate"))
 
 
-def sample_composite(step: FilterStep, factors: tuple[float, float, float, float]) -> Content:
+def sample_composite(step: FilterStep, factors: tuple[float, float, float, float]) -> FilterContent:
     """Return an arithmetic composite as a picture."""
     return sample_step(step, PorterDuff("arithmetic", factors))
 
 
-def sample_colors(step: FilterStep, function: ColorFunction) -> Content:
+def sample_colors(step: FilterStep, function: ColorFunction) -> FilterContent:
     """Return the input of a step with its colours changed, as a picture."""
     return sample_step(step, ColorMapping(function.of))

@@ -8,7 +8,7 @@ from vexture.drawing.blur import REACH, Blur
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Color, Paint
 from vexture.svg.compositing import Box, drop_empty_groups
-from vexture.svg.filter_content import MOST_PATHS, Content, FilterLimitError, flood, meeting
+from vexture.svg.filter_content import MOST_PATHS, FilterContent, FilterLimitError, flood, meeting
 
 SHARP: Final = 2e-5
 """Deviation, in sizes of the content, up to which nothing is blurred."""
@@ -38,14 +38,14 @@ FARTHEST: Final = 1e6
 
 
 def blur_content(
-    content: Content,
+    content: FilterContent,
     deviations: tuple[float, float],
     region: Box,
     element: str,
     is_linear: bool,
     remarks: dict[str, None],
     sources: "Sources",
-) -> Content:
+) -> FilterContent:
     """Return a content blurred by deviations along x and y; `region` is the part that is seen.
 
     It is one rectangle, with the name `element`. Of one colour, only the opacity is blurred.
@@ -59,7 +59,7 @@ def blur_content(
     if max(deviations) <= 0.0:
         return content
     if min(width, height) <= 0.0 or max(deviations) > FARTHEST * size:
-        return Content()
+        return FilterContent()
     thin = THIN * min(size, max(deviations) * REACH)
     if min(deviations) <= 0.0:
         remarks[ONE_WAY] = None
@@ -67,10 +67,10 @@ def blur_content(
     around = (box[0] - REACH * across, box[1] - REACH * up, box[2] + REACH * across, box[3] + REACH * up)
     seen = meeting(around, region)
     if seen is None:
-        return Content()
+        return FilterContent()
     source = source_of(content, box)
     if not source.paths:
-        return Content()
+        return FilterContent()
     sources.check(source)
     color = content.color
     (side, _, left), (_, _, top) = source.to_source.tolist()
@@ -92,7 +92,7 @@ def blur_content(
     return flood(seen, Paint(mean_color(content) if color is None else color, blur=blur), element)
 
 
-def source_of(content: Content, box: Box) -> Drawing:
+def source_of(content: FilterContent, box: Box) -> Drawing:
     """Return the drawing of a content with a box."""
     left, top, right, bottom = box
     drawing = Drawing.from_source(content.paths, (left, top, right - left, bottom - top), groups=content.groups)
@@ -100,7 +100,7 @@ def source_of(content: Content, box: Box) -> Drawing:
     return Drawing(paths, drawing.to_source, drawing.name, groups=groups, sides=drawing.sides)
 
 
-def mean_color(content: Content) -> Color:
+def mean_color(content: FilterContent) -> Color:
     """Return the mean of the colours of a content."""
     colors = [path.paint.color for path in content.visible]
     red, green, blue = (sum(color[k] for color in colors) / len(colors) for k in range(3))

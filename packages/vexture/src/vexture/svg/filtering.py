@@ -8,8 +8,8 @@ from typing import Final, TypeAlias
 from lxml import etree
 
 from vexture.svg.compositing import Veil, group_paths
-from vexture.svg.filter_content import Content, FilterLimitError, check_count
-from vexture.svg.filter_graph import FilterGraph, FilterScene, Subject
+from vexture.svg.filter_content import FilterContent, FilterLimitError, check_count
+from vexture.svg.filter_graph import FilterGraph, FilterScene, FilterSubject
 from vexture.svg.filter_primitives import PRIMITIVES
 from vexture.svg.filters import filter_elements, filter_label
 from vexture.svg.gradients import rows
@@ -60,7 +60,7 @@ def paint_filtered(
     if place.space.flat:
         return []
     content = source = content_of(scene, place, painter, paint)
-    subject = Subject(scene, element, place)
+    subject = FilterSubject(scene, element, place)
     try:
         check_count(len(source.paths))
         scene.sources.spend(len(source.paths))
@@ -76,7 +76,7 @@ def paint_filtered(
     return []
 
 
-def content_of(scene: FilterScene, place: ElementPlace, painter: Painter, paint: PaintContent) -> Content:
+def content_of(scene: FilterScene, place: ElementPlace, painter: Painter, paint: PaintContent) -> FilterContent:
     """Return what an element paints, in its user units, beyond the viewports around it, too."""
     whole = place.space.whole
     free = replace(place, space=Space(whole, whole=whole), veil=None, filters=place.filters + 1)
@@ -90,10 +90,10 @@ def content_of(scene: FilterScene, place: ElementPlace, painter: Painter, paint:
     painter.segments = own.segments
     painter.filtered += zip(own.paths, own.places, strict=True)
     paths, groups = group_paths(own.paths, own.veils)
-    return Content(tuple(paths), groups).move(whole.inverse())
+    return FilterContent(tuple(paths), groups).move(whole.inverse())
 
 
-def paint_content(content: Content, place: ElementPlace, painter: Painter) -> None:
+def paint_content(content: FilterContent, place: ElementPlace, painter: Painter) -> None:
     """Paint a content at a place, whose viewports cut it; notes show what it was before."""
     place = replace(place, masks=max(place.masks, 1))
     to_user = rows(place.space.whole.inverse())
