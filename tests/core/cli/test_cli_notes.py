@@ -47,8 +47,8 @@ def test_a_size_of_zero_is_an_empty_drawing(tmp_path):
 
 
 STRICT = SVG.format(
-    '<filter id="f"><feImage/></filter><g id="card" filter="url(#f)"><path d="M2 2h6v5h-6z"/></g>'
-    '<foreignObject/><foreignObject id="t"/>'
+    '<g id="card" filter="url(#f)"><path d="M2 2h6v5h-6z"/></g><foreignObject/><foreignObject id="t"/>\n'
+    f'<filter id="f">{"<feOffset/>" * 501}</filter>'
 )
 
 
@@ -60,8 +60,8 @@ def test_strict_accepts_no_loss(square, tmp_path, command):
     result = run(command, file, "-o", out, "--strict")
     assert result.exit_code == 1
     assert result.output == (
-        f"vexture: {file}: left out: filter of image, <foreignObject> (2); --strict accepts no such note; "
-        "correct the source, or leave it out\n"
+        f"vexture: {file}: left out: filter of offset (it has 501 steps; the limit is 500), <foreignObject> (2); "
+        "--strict accepts no such note; correct the source, or leave it out\n"
     )
     assert not out.exists()
     assert run(command, square, "-o", out, "--strict").exit_code == 0

@@ -12,6 +12,8 @@ from vexture.svg.read import read_svg
 
 FIXTURES = Path(__file__).parent / "fixtures"
 
+TILES = " (it has 40,960,000 tiles; the limit is 2,000)"
+
 SAID = {
     "animation": "left out: animation",
     "animation-in-gradient": "left out: animation (2)",
@@ -23,10 +25,10 @@ SAID = {
     " which cannot be read",
     "external-use": "left out: <use> of 'other.svg#a', which is not in the drawing",
     "event-attribute": "left out: script (2)",
-    "filter": "left out: filter of image",
-    "filter-functions": "left out: filter of drop shadow and image",
+    "filter": "left out: filter of offset and tile" + TILES,
+    "filter-functions": "left out: filter of drop shadow, offset and tile" + TILES,
     "filter-missing": "invalid and ignored: filter='url(#none)' of <rect> in line 2",
-    "filter-steps": "left out: filter of flood, offset, blur, color matrix and more (2)",
+    "filter-steps": f"left out: filter of flood, offset, blur, color matrix and more{TILES} (2)",
     "gradient-mesh": "left out: gradient mesh",
     "hatch": "left out: hatch",
     "html": "left out: <p> in line 2, of another namespace",

@@ -76,6 +76,8 @@ class FilterSubject:
     scene: FilterScene
     element: etree._Element
     place: ElementPlace  # inside the element
+    content: Callable[[Callable[[ElementPlace, Painter], list[PlacedElement]]], FilterContent]
+    """Paints something else at the place of the element."""
     remarks: dict[str, None] = field(default_factory=dict)  # what is not exact
 
     @property

@@ -22,6 +22,7 @@ from vexture.svg.filter_colors import (
 from vexture.svg.filter_composite import blend, combine, composite
 from vexture.svg.filter_content import FilterContent, FilterLimitError, InexactError, flood, stack
 from vexture.svg.filter_graph import FilterStep
+from vexture.svg.filter_image import make_image
 from vexture.svg.filter_sampled import (
     make_convolution,
     make_displacement,
@@ -269,6 +270,7 @@ PRIMITIVES: Final[dict[str, Callable[[FilterStep], FilterContent]]] = {
     "DropShadow": make_shadow,
     "Flood": make_flood,
     "GaussianBlur": make_blur,
+    "Image": make_image,
     "Merge": make_merge,
     "Morphology": make_morphology,
     "Offset": make_offset,

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
+from functools import partial
 from typing import Final, TypeAlias
 
 from lxml import etree
@@ -60,7 +61,7 @@ def paint_filtered(
     if place.space.flat:
         return []
     content = source = content_of(scene, place, painter, paint)
-    subject = FilterSubject(scene, element, place)
+    subject = FilterSubject(scene, element, place, partial(content_of, scene, place, painter))
     try:
         check_count(len(source.paths))
         scene.sources.spend(len(source.paths))
