@@ -7,27 +7,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
-from vexture.base.layout import CELL_BITS, COORDINATE_BITS
+from vexture.base.layout import BLOCK_SIDE, CELL_BITS, COORDINATE_BITS, ENTRY_BITS, FIRST_BLOCK
 from vexture.texture.pixel_texels import count_levels
 from vexture.tree.planar.pixels import BYTE, FIRST_PIXEL, size_at
-
-BLOCK_BITS = 2
-"""Binary logarithm of the side of a block."""
-
-ENTRY_BITS = 3
-"""Binary logarithm of the number of entries in a texel of an index."""
-
-FIRST_BLOCK = BYTE + 1
-"""Entry of the first block that is stored. Entries below are the value of all coefficients of their block."""
 
 
 @kernel(allocates=False)
 def count_entries(columns: int, rows: int) -> int:
     """Number of blocks of all levels of a picture, and of entries in its index."""
-    entries, one = 0, (1 << BLOCK_BITS) - 1
+    entries = 0
     for level in range(count_levels(columns, rows)):
         across, down = (columns - 1 >> level) + 1, (rows - 1 >> level) + 1
-        entries += (across + one >> BLOCK_BITS) * (down + one >> BLOCK_BITS)
+        entries += ((across - 1) // BLOCK_SIDE + 1) * ((down - 1) // BLOCK_SIDE + 1)
     return entries
 
 
@@ -64,8 +55,8 @@ def write_opacities(words: NDArray[np.uint32], begin: int, first: int, out: NDAr
             for i in range(values.shape[1]):
                 pixels = high * (min(i + 1 << level, columns) - (i << level))
                 values[j, i] = (2 * sums[j, i] + pixels) // (2 * pixels)
-        for j in range(0, values.shape[0], 1 << BLOCK_BITS):
-            for i in range(0, values.shape[1], 1 << BLOCK_BITS):
+        for j in range(0, values.shape[0], BLOCK_SIDE):
+            for i in range(0, values.shape[1], BLOCK_SIDE):
                 number = _write_block(values, i, j, end, out)
                 if number < 0:
                     number, end = FIRST_BLOCK + end - blocks, end + 1
@@ -91,7 +82,7 @@ def _sum_squares(sums: NDArray[np.int64]) -> NDArray[np.int64]:
 def _write_block(values: NDArray[np.int64], i: int, j: int, at: int, out: NDArray[np.uint32]) -> int:
     """Return the value of a block that has only one; write another one to texel `at` and return -1."""
     value, is_equal, (rows, columns) = int(values[j, i]), True, values.shape
-    end_row, end = min(j + (1 << BLOCK_BITS), rows), min(i + (1 << BLOCK_BITS), columns)
+    end_row, end = min(j + BLOCK_SIDE, rows), min(i + BLOCK_SIDE, columns)
     for row in range(j, end_row):
         for column in range(i, end):
             is_equal = is_equal and values[row, column] == value
@@ -108,7 +99,7 @@ def _write_block(values: NDArray[np.int64], i: int, j: int, at: int, out: NDArra
 def count_blocks(columns: int, rows: int) -> int:
     """Return the number of `count_entries` without a kernel, because a check of a file must not compile any."""
     levels = range((max(columns, rows) - 1).bit_length() + 1)
-    return sum(((columns - 1 >> level) // 4 + 1) * ((rows - 1 >> level) // 4 + 1) for level in levels)
+    return sum(((columns - 1 >> level) // BLOCK_SIDE + 1) * ((rows - 1 >> level) // BLOCK_SIDE + 1) for level in levels)
 
 
 def entries_of(texels: NDArray[np.uint32], first: int, columns: int, rows: int) -> NDArray[np.int64]:

@@ -10,7 +10,7 @@ from vexture.base.errors import FormatError
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Spread
 from vexture.drawing.picture import Sampling
-from vexture.texture.opacity_texels import FIRST_BLOCK, count_blocks, entries_of, read_opacities
+from vexture.texture.opacity_texels import count_blocks, entries_of, read_opacities
 from vexture.texture.pixel_texels import first_bad_pixel, read_pixels
 from vexture.texture.program_texels import SPREAD_SHIFT
 from vexture.texture.walk import REMEDY
@@ -222,4 +222,4 @@ def _end_of_picture(pixels: NDArray[np.uint32], first: int, columns: int, rows: 
     entries = entries_of(pixels, first, columns, rows)
     count = count_blocks(columns, rows)
     _need(len(entries) >= count and not entries[count:].any(), "an index of blocks")
-    return first + len(entries) // 8 + max(int(entries.max(initial=0)) + 1 - FIRST_BLOCK, 0)
+    return first + len(entries) // 8 + max(int(entries.max(initial=0)) + 1 - layout.FIRST_BLOCK, 0)
