@@ -1,7 +1,6 @@
 """Draw the documentation's picture of filters: `python tools/make_filters.py` writes docs/pictures/filters.png.
 
-Above what vexture draws of emoji with shadows and blurs, which it leaves out, below what Chromium makes of the same
-SVG.
+Above emoji with shadows and blurs from their textures, below what Chromium makes of the same SVG.
 Needs Chromium and npm.
 """
 

@@ -9,9 +9,10 @@ from vexture.drawing.drawing import Path
 from vexture.drawing.group import Blend, Mask
 from vexture.drawing.paint import Color, Paint
 from vexture.svg.compositing import Box, masking
-from vexture.svg.filter_colors import ColorFunction, change_paint, pass_values, recolor_paint, to_linear
+from vexture.svg.filter_colors import ColorFunction, change_paint, pass_values, recolor_paint
 from vexture.svg.filter_composite import outside
 from vexture.svg.filter_content import FilterContent, InexactError, flood, stack
+from vexture.svg.filter_pixels import to_linear
 
 ONE_BY_ONE: Final = "translucent shapes that overlap are changed one by one"
 SOFT: Final = "the change of soft opacities is not exact"

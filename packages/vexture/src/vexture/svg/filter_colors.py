@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.paint import Color, Gradient, Paint, Stop
 from vexture.svg.compositing import masking
-from vexture.svg.filter_pixels import map_colors
+from vexture.svg.filter_pixels import from_linear, map_colors, to_linear
 
 Colors = NDArray[np.float64]
 """Colours (n, 4): red, green, blue, not premultiplied, and opacity, each in 0..1."""
@@ -136,23 +136,6 @@ class ColorFunction:
 def pass_values(values: Colors) -> Colors:
     """Return the values."""
     return values
-
-
-def to_linear(colors: Colors) -> Colors:
-    """Convert sRGB to linear light.
-
-    Examples
-    --------
-    >>> to_linear(np.array([0.0, 0.5, 1.0])).round(3).tolist()
-    [0.0, 0.214, 1.0]
-    """
-    return np.where(colors <= 0.04045, colors / 12.92, ((np.maximum(colors, 0.0) + 0.055) / 1.055) ** 2.4)
-
-
-def from_linear(colors: Colors) -> Colors:
-    """Convert linear light to sRGB."""
-    bright = 1.055 * np.maximum(colors, 0.0) ** (1.0 / 2.4) - 0.055
-    return np.where(colors <= 0.0031308, colors * 12.92, bright)
 
 
 def matrix_of(values: Colors) -> Colors:

@@ -41,13 +41,19 @@ def limit_colors(pixels: Pixels) -> Pixels:
 
 
 def to_linear(encoded: Numbers) -> Numbers:
-    """Return sRGB components in linear light (IEC 61966-2-1)."""
-    return np.where(encoded <= 0.04045, encoded / 12.92, ((encoded + 0.055) / 1.055) ** 2.4)
+    """Return sRGB components in linear light (IEC 61966-2-1).
+
+    Examples
+    --------
+    >>> to_linear(np.array([0.0, 0.5, 1.0])).round(3).tolist()
+    [0.0, 0.214, 1.0]
+    """
+    return np.where(encoded <= 0.04045, encoded / 12.92, ((np.maximum(encoded, 0.0) + 0.055) / 1.055) ** 2.4)
 
 
 def from_linear(linear: Numbers) -> Numbers:
     """Return components of linear light in sRGB."""
-    return np.where(linear <= 0.0031308, linear * 12.92, 1.055 * linear ** (1.0 / 2.4) - 0.055)
+    return np.where(linear <= 0.0031308, linear * 12.92, 1.055 * np.maximum(linear, 0.0) ** (1.0 / 2.4) - 0.055)
 
 
 def convert_colors(pixels: Pixels, convert: Callable[[Numbers], Numbers]) -> Pixels:

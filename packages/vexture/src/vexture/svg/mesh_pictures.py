@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from vexture.bezier.bounds import bounds
 from vexture.drawing.picture import Picture
+from vexture.svg.filter_pixels import from_linear, to_linear
 
 Values = NDArray[np.float64]
 
@@ -217,13 +218,9 @@ def covers(border: Values, shape: Values) -> bool:
 
 def decode(colors: Values) -> Values:
     """Convert colours, not premultiplied, to linear light."""
-    parts = colors[..., :3]
-    light = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
-    return np.concatenate([light, colors[..., 3:]], axis=-1)
+    return np.concatenate([to_linear(colors[..., :3]), colors[..., 3:]], axis=-1)
 
 
 def encode(colors: Values) -> Values:
     """Convert colours in linear light, not premultiplied, to sRGB."""
-    light = np.clip(colors[..., :3], 0.0, 1.0)
-    parts = np.where(light <= 0.0031308, 12.92 * light, 1.055 * np.maximum(light, 1e-9) ** (1 / 2.4) - 0.055)
-    return np.concatenate([parts, colors[..., 3:]], axis=-1)
+    return np.concatenate([from_linear(np.clip(colors[..., :3], 0.0, 1.0)), colors[..., 3:]], axis=-1)
