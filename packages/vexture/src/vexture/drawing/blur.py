@@ -77,17 +77,3 @@ class Blur:
         left, low, right, high = self.window
         across, up = self.deviations
         return ceil((right - left) / (SPACING * across)) + 3, ceil((high - low) / (SPACING * up)) + 3
-
-
-def window_around(blurred: Window, deviations: tuple[float, float], visible: Window) -> Window | None:
-    """Return the part of a visible window that a blur of a box reaches; None if there is none.
-
-    Examples
-    --------
-    >>> window_around((0.0, 0.0, 1.0, 1.0), (1.0, 2.0), (-9.0, 0.5, 0.5, 9.0))
-    (-3.5, 0.5, 0.5, 8.0)
-    """
-    across, up = (REACH * deviation for deviation in deviations)
-    left, low = max(blurred[0] - across, visible[0]), max(blurred[1] - up, visible[1])
-    right, high = min(blurred[2] + across, visible[2]), min(blurred[3] + up, visible[3])
-    return (left, low, right, high) if left < right and low < high else None

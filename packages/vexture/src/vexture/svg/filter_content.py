@@ -1,4 +1,4 @@
-"""What the steps of filters read and produce: small drawings in the user units of an element, y down."""
+"""Content of filters, which their steps read and produce: small drawings in the user units of an element, y down."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
