@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from math import radians
-from typing import Final
+from typing import Final, Literal, TypeAlias, get_args
 
 import numpy as np
 
@@ -23,6 +23,7 @@ from vexture.svg.filter_composite import blend, combine, composite
 from vexture.svg.filter_content import FilterContent, FilterLimitError, InexactError, flood, stack
 from vexture.svg.filter_graph import FilterStep
 from vexture.svg.filter_image import make_image
+from vexture.svg.filter_operations import Blending, PorterDuff
 from vexture.svg.filter_sampled import (
     make_convolution,
     make_displacement,
@@ -31,6 +32,7 @@ from vexture.svg.filter_sampled import (
     make_turbulence,
     sample_colors,
     sample_composite,
+    sample_step,
 )
 from vexture.svg.filter_soft import blur_content
 from vexture.svg.properties import BLENDS
@@ -41,7 +43,9 @@ MOST_TILES: Final = 2_000
 
 MIXED: Final = "translucent colours are mixed in sRGB, not in linear light"
 
-OPERATORS: Final = frozenset({"over", "in", "out", "atop", "xor", "lighter", "arithmetic"})
+Operator: TypeAlias = Literal["over", "in", "out", "atop", "xor", "lighter"]
+
+OPERATORS: Final[dict[str, Operator]] = {name: name for name in get_args(Operator)}
 
 
 def make_offset(step: FilterStep) -> FilterContent:
@@ -71,10 +75,15 @@ def make_merge(step: FilterStep) -> FilterContent:
 
 def note_linear(step: FilterStep, upper: FilterContent, *lower: FilterContent) -> None:
     """Note that colours are not mixed in linear light, if that differs."""
-    if not step.is_linear or not upper.visible or upper.is_opaque:
-        return
-    if any(below.visible and (below.color is None or below.color != upper.color) for below in lower):
+    if mixes_light(step, upper, *lower):
         step.remarks[MIXED] = None
+
+
+def mixes_light(step: FilterStep, upper: FilterContent, *lower: FilterContent) -> bool:
+    """Return whether a step mixes translucent colours in linear light."""
+    if not step.is_linear or not upper.visible or upper.is_opaque:
+        return False
+    return any(below.visible and (below.color is None or below.color != upper.color) for below in lower)
 
 
 def make_blend(step: FilterStep) -> FilterContent:
@@ -85,17 +94,18 @@ def make_blend(step: FilterStep) -> FilterContent:
         step.subject.scene.report.invalid("mode", text, step.element)
         mode = Blend.NORMAL
     upper, lower = step.input(), step.input("in2")
-    note_linear(step, upper, lower)
-    if step.is_linear and mode is not Blend.NORMAL and upper.visible and lower.visible:
-        step.remarks["colours are blended in sRGB, not in linear light"] = None
+    if step.is_linear and upper.visible and lower.visible:
+        if mode is not Blend.NORMAL:
+            return sample_step(step, Blending(mode))
+        note_linear(step, upper, lower)
     return blend(upper, lower, mode)
 
 
 def make_composite(step: FilterStep) -> FilterContent:
     """Composite the inputs."""
-    operator = step.element.get("operator", "over").strip()
+    text = step.element.get("operator", "over").strip()
     upper, lower = step.input(), step.input("in2")
-    if operator == "arithmetic":
+    if text == "arithmetic":
         k1, k2, k3, k4 = (step.number(f"k{k}", 0.0) for k in (1, 2, 3, 4))
         if step.is_linear and k2 and k3 and not (is_even(upper) and is_even(lower)):
             return sample_composite(step, (k1, k2, k3, k4))
@@ -103,11 +113,11 @@ def make_composite(step: FilterStep) -> FilterContent:
             return combine(upper, lower, (k1, k2, k3, k4))
         except InexactError:
             return sample_composite(step, (k1, k2, k3, k4))
-    if operator not in OPERATORS:
-        step.subject.scene.report.invalid("operator", operator, step.element)
-        operator = "over"
-    if operator != "in" and operator != "out":
-        note_linear(step, upper, lower)
+    if text not in OPERATORS:
+        step.subject.scene.report.invalid("operator", text, step.element)
+    operator = OPERATORS.get(text, "over")
+    if operator != "in" and operator != "out" and mixes_light(step, upper, lower):
+        return sample_step(step, PorterDuff(operator))
     return composite(upper, lower, operator)
 
 
