@@ -5,6 +5,7 @@ import pytest
 
 from vexture.drawing.drawing import Drawing
 from vexture.drawing.picture import Picture
+from vexture.renderers.exact import render_exact_colours
 from vexture.svg.filter_frame import PixelFrame
 from vexture.svg.filter_noise import turbulence
 from vexture.svg.filter_operations import Turbulence
@@ -100,3 +101,26 @@ def test_later_sampled_filters_have_fewer_pixels() -> None:
     shapes = "".join(f'<rect x="{10 * k}" width="9" height="9" filter="url(#f)"/>' for k in range(4))
     drawing = read('<feTurbulence baseFrequency=".05"/>', shapes)
     assert [path.paint.effect.depth for path in drawing.paths if path.paint.effect] == [8, 8, 8, 7]
+
+
+def test_a_chain_of_sampled_steps_keeps_its_pixels() -> None:
+    noise = '<feTurbulence type="fractalNoise" baseFrequency=".2" seed="3"/>'
+    chain = noise + '<feConvolveMatrix kernelMatrix="0 0 0 0 1 0 0 0 0"/>' * 3
+    assert (picture_of(read(chain)).pixels == picture_of(read(noise)).pixels).all()
+
+
+def test_the_exact_renderer_draws_sampled_steps() -> None:
+    drawing = read('<feMorphology operator="dilate" radius="10 5"/>')
+    image = render_exact_colours(drawing, 20)
+    assert image[10, 10] == pytest.approx((224 / 255, 32 / 255, 64 / 255, 1.0), abs=0.01)
+    assert image[10, 17, 3] == pytest.approx(0.0, abs=0.01)
+    assert image[10, 15, 3] == pytest.approx(1.0, abs=0.01)
+
+
+def test_steps_that_double_end() -> None:
+    double = '<feComposite operator="arithmetic" k1=".3" k2=".5" k3=".5" k4=".01"/>'
+    twice = double.replace("<feComposite", '<feComposite in="a" in2="a"')
+    steps = '<feTurbulence baseFrequency=".1" result="a"/>' + twice.replace("/>", ' result="a"/>') * 30
+    notes = [note.message for note in read(steps).notes]
+    assert len(notes) == 1
+    assert "limit is" in notes[0]

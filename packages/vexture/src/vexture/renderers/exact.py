@@ -22,6 +22,7 @@ from vexture.renderers.faces import FLAT, RUN, PathStack, SweepFaces, find_face,
 from vexture.renderers.flatten import Chords, find_chords, snap
 from vexture.renderers.ramps import MOST_CUTS
 from vexture.renderers.regions import SIDE, Regions, add_region, end_row
+from vexture.renderers.samples import draw_effects
 from vexture.renderers.view import Size, ViewLike, size_of, view_matrix
 
 
@@ -187,6 +188,7 @@ def _integrate_colours(
 ) -> NDArray[np.float32]:
     """Return the colours of an image, like `render_exact_colours`; those of faces may be in linear light."""
     width, height = size
+    drawing = draw_effects(drawing, _integrate_colours)
     image = np.zeros((height, width, 4), np.float32)
     chords = chords_of(drawing, size, view, flatness)
     if len(chords.lines):

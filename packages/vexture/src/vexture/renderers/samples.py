@@ -4,13 +4,16 @@ The *seams* of a picture are the straight lines at which its colour jumps or ben
 is interpolated, the lines through their centres. Between seams, the colour is a polynomial of two degrees.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vexture.base.kernels import kernel
+from vexture.drawing.drawing import Drawing
+from vexture.drawing.paint import Paint
 from vexture.drawing.picture import Picture, Sampling
 from vexture.renderers.ramps import Place, Point, add_cut, ramp_point
 
@@ -56,6 +59,22 @@ class Samples(NamedTuple):
             np.concatenate(parts),
             np.zeros(1, np.int64),
         )
+
+
+def draw_effects(drawing: Drawing, render: Callable[[Drawing, tuple[int, int], None], NDArray[np.float32]]) -> Drawing:
+    """Return the drawing with a picture in the place of each effect; `render` is the exact renderer."""
+    if not any(path.paint.effect for path in drawing.paths):
+        return drawing
+    paths = []
+    for path in drawing.paths:
+        effect = path.paint.effect
+        if effect is not None:
+            side = 1 << effect.depth
+            rasters = tuple(render(source, (side, side), None).astype(np.float64) for source in effect.sources)
+            picture = Picture(effect.to_pixels, effect.to_bytes(rasters), Sampling.LINEAR, path.paint.opacity)
+            path = replace(path, paint=Paint.from_picture(picture))
+        paths.append(path)
+    return replace(drawing, paths=tuple(paths))
 
 
 @kernel(allocates=False)

@@ -1,6 +1,6 @@
 """Steps of filters that have no exact form: their results are pictures that a function makes of the pixels of inputs.
 
-The pixels of one filter form one square. So a chain of such steps is one function, which no pixel passes twice.
+The pixels of one filter form one square. So a step whose only input is such a picture reads its pixels as they are.
 """
 
 from typing import Final
@@ -15,7 +15,7 @@ from vexture.svg.compositing import Box
 from vexture.svg.document import local_name
 from vexture.svg.filter_colors import ColorFunction
 from vexture.svg.filter_content import FilterContent, InexactError, flood, meeting
-from vexture.svg.filter_frame import EdgeMode, PixelFrame
+from vexture.svg.filter_frame import EdgeMode, PixelFrame, crop
 from vexture.svg.filter_graph import FilterStep
 from vexture.svg.filter_operations import (
     ColorMapping,
@@ -54,23 +54,37 @@ def sample_step(step: FilterStep, operation: Operation) -> FilterContent:
     raster_step = RasterStep(operation, tuple(step.links), "", step.region, step.is_linear)
     check_steps([raster_step], frame)
     step.remarks[f"{words_of(step.name)} as a picture of {1 << depth} x {1 << depth} pixels"] = None
-    sources = tuple(source_of(each.content.cut(square), square) for each in inputs)
+    side = right - left
+    to_source: Affine = (1.0 / side, 0.0, -left / side), (0.0, -1.0 / side, bottom / side)
+    parts = [effect_in(square, to_source, depth, each.content, len(inputs) == 1) for each in inputs]
+    sources = tuple(source for part in parts for source in part.sources)
     for source in sources:
         step.subject.scene.sources.check(source)
     regions = tuple(meeting(each.region, square) or (left, top, left, top) for each in inputs)
 
     def process(rasters: tuple[Pixels, ...]) -> Pixels:
-        values = [
-            FilterValue(limit_colors(pixels), False, region) for pixels, region in zip(rasters, regions, strict=True)
-        ]
+        values, rest = [], rasters
+        for part, region in zip(parts, regions, strict=True):
+            pixels, rest = part.process(rest[: len(part.sources)]), rest[len(part.sources) :]
+            values.append(FilterValue(crop(limit_colors(pixels), frame, region), False, region))
         nothing = FilterValue(np.zeros((frame.rows, frame.columns, 4)), False, square)
         result = evaluate_step(raster_step, values or [nothing], frame, meeting(step.graph.region, square) or square)
         return limit_colors(result.convert(is_linear=False).pixels)
 
-    side = right - left
-    to_source: Affine = (1.0 / side, 0.0, -left / side), (0.0, -1.0 / side, bottom / side)
     effect = Effect(sources, to_source, depth, process)
     return flood(visible, Paint(effect=effect), step.subject.own_name)
+
+
+def effect_in(square: Box, to_source: Affine, depth: int, content: FilterContent, is_only: bool) -> Effect:
+    """Return the pixels of an input in a square: those of an effect if it is nothing else, and the only input.
+
+    If effects with several inputs were used, too, a chain of them would compute its first step 2^n times.
+    """
+    path = content.only_path
+    effect = None if path is None or path.paint.opacity < 1.0 or not is_only else path.paint.effect
+    if effect is not None and (effect.to_source, effect.depth) == (to_source, depth):
+        return effect
+    return Effect((source_of(content.cut(square), square),), to_source, depth, lambda rasters: rasters[0])
 
 
 def square_of(step: FilterStep) -> Box:
