@@ -114,7 +114,7 @@ def test_the_exact_renderer_draws_sampled_steps() -> None:
     image = render_exact_colours(drawing, 20)
     assert image[10, 10] == pytest.approx((224 / 255, 32 / 255, 64 / 255, 1.0), abs=0.01)
     assert image[10, 17, 3] == pytest.approx(0.0, abs=0.01)
-    assert image[10, 15, 3] == pytest.approx(1.0, abs=0.01)
+    assert image[10, 14, 3] == pytest.approx(1.0, abs=0.01)
 
 
 def test_steps_that_double_end() -> None:
