@@ -7,7 +7,21 @@ import pytest
 from hand import TREE, need_gpu, texture_of
 
 from vexture.fold import blend as folding
-from vexture.renderers import blend, cells, colour, cpu, feature, flat, gradient, leaf, moment, paints, piece, pixels
+from vexture.renderers import (
+    blend,
+    cells,
+    colour,
+    cpu,
+    feature,
+    flat,
+    gradient,
+    leaf,
+    moment,
+    paints,
+    piece,
+    pixels,
+    splines,
+)
 from vexture.renderers.device import context
 from vexture.renderers.shader import VERSIONS, read_shader, vertex_source
 from vexture.thesis import cpu as thesis_cpu
@@ -37,6 +51,7 @@ MIRROR = dict.fromkeys(FILES, cpu) | {
     "colour.glsl": colour,
     "gradient.glsl": gradient,
     "picture.glsl": pixels,
+    "spline.glsl": splines,
     "srgb.glsl": paints,
     "paints.glsl": paints,
     "moment.glsl": moment,

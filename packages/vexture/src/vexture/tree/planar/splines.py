@@ -191,8 +191,8 @@ def to_linear(encoded: float) -> float:
 
     Examples
     --------
-    >>> round(to_linear(0.5), 9)
-    0.214041140
+    >>> round(float(to_linear(0.5)), 6)
+    0.214041
     """
     if encoded <= 0.04045:
         return encoded / 12.92
@@ -207,7 +207,7 @@ def from_linear(linear: float) -> float:
 
     Examples
     --------
-    >>> round(from_linear(0.214041140), 9)
+    >>> round(float(from_linear(to_linear(0.5))), 9)
     0.5
     """
     if linear <= 0.0031308:
