@@ -19,6 +19,7 @@ FIXTURES = Path(__file__).parents[1] / "core" / "svg" / "fixtures"
 KNOWN = {
     "transform/css-axes-together.svg": "two turns about axes in space",
     "transform/css-origin-in-depth.svg": "depth of `transform-origin`",
+    "strokes/join-miter-clip.svg": "`stroke-linejoin: miter-clip`, which Chromium does not know",
     "style/media-of-people.svg": "the browser's own answers to media queries",
     "unsupported/flowed-text.svg": "text",
 }

@@ -276,7 +276,7 @@ def test_npm_alone_tells_what_a_drawing_loses(project: Project) -> None:
     for _ in range(2):
         outcome = project.build(**environment)
         assert outcome.returncode == 0
-        assert "logo.svg: left out: <foreignObject>" in outcome.stderr
+        assert "logo.svg: left out: filter of blur" in outcome.stderr
     project.imports("logo.svg?vexture&strict")
     outcome = project.build(**environment)
     assert outcome.returncode == 1
