@@ -1,5 +1,7 @@
 """Steps of filters that are sampled, from SVG to the pixels of their pictures."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from vexture.svg.read import svg_drawing
 from vexture.tree.planar.blurs import with_splines
 
 DISC = '<circle cx="50" cy="50" r="20" fill="#e02040" filter="url(#f)"/>'
+NOISE = '<feTurbulence baseFrequency=".05"/>'
 REGION = 'x="0" y="0" width="100" height="100" filterUnits="userSpaceOnUse" color-interpolation-filters="sRGB"'
 
 
@@ -124,3 +127,20 @@ def test_steps_that_double_end() -> None:
     notes = [note.message for note in read(steps).notes]
     assert len(notes) == 1
     assert "limit is" in notes[0]
+
+
+@pytest.mark.parametrize(
+    "steps",
+    [
+        '<feMorphology radius="3 5"/><feColorMatrix values="1 0 0 0 0 0 1 0 0 0 0 0 1 0 0 0 0 0 9 -3"/>',
+        f'{NOISE}<feComponentTransfer><feFuncA type="gamma" exponent="2"/></feComponentTransfer>',
+        f"{NOISE}<feDropShadow/>",
+    ],
+)
+def test_a_sampled_filter_can_go_to_another_process(steps: str) -> None:
+    drawing = read(steps)
+    again = pickle.loads(pickle.dumps(drawing))
+    for one, other in zip(with_splines(drawing).paths, with_splines(again).paths, strict=True):
+        assert one.paint.picture is not None
+        assert other.paint.picture is not None
+        assert (one.paint.picture.pixels == other.paint.picture.pixels).all()

@@ -22,6 +22,18 @@ LEAST_DEPTH, MOST_DEPTH = 2, 9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class ProcessChain:
+    """A process of an effect that is followed by a further function of its pixels."""
+
+    process: Callable[[tuple[Pixels, ...]], Pixels]
+    change: Callable[[Pixels], Pixels]
+
+    def __call__(self, rasters: tuple[Pixels, ...]) -> Pixels:
+        """Return the changed pixels."""
+        return self.change(self.process(rasters))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Effect:
     """A picture as a paint that a function makes of the pixels of drawings.
 
@@ -35,7 +47,8 @@ class Effect:
         Binary logarithm of the number of pixels on a side of the unit square.
     process : callable
         Makes the pixels of the picture from those of each source. Its result has as many rows and columns; values
-        beyond 0..1, and colours above their opacity, are limited.
+        beyond 0..1, and colours above their opacity, are limited. It can be pickled, as drawings go from process to
+        process.
     """
 
     sources: tuple[Any, ...]
@@ -55,8 +68,7 @@ class Effect:
 
     def then(self, change: Callable[[Pixels], Pixels]) -> "Effect":
         """Return the picture after a further function of its pixels."""
-        process = self.process
-        return replace(self, process=lambda rasters: change(process(rasters)))
+        return replace(self, process=ProcessChain(self.process, change))
 
     @property
     def to_pixels(self) -> Affine:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from math import cos, sin
 from typing import Final
 
@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vexture.drawing.drawing import Drawing
+from vexture.drawing.effect import Pixels
 from vexture.drawing.paint import Color, Gradient, Paint, Stop
 from vexture.svg.compositing import masking
 from vexture.svg.filter_pixels import from_linear, map_colors, to_linear
@@ -185,7 +186,7 @@ def change_paint(paint: Paint, function: ColorFunction) -> Paint:
     if paint.picture is not None:
         return change_picture(paint, function)
     if paint.effect is not None:
-        return replace(paint, effect=paint.effect.then(lambda pixels: map_colors(pixels, function.of)))
+        return replace(paint, effect=paint.effect.then(partial(map_colors, function=function.of)))
     if paint.blur is None:
         return Paint(*function.color(paint.color, paint.opacity))
     colors = function.of_colors
@@ -244,6 +245,12 @@ def change_picture(paint: Paint, function: ColorFunction) -> Paint:
     return Paint.from_picture(replace(picture, pixels=pixels, opacity=1.0))
 
 
+def color_opacities(pixels: Pixels, color: Color) -> Pixels:
+    """Return pixels in one colour, with the opacities of others."""
+    recolored: Pixels = pixels[..., 3:] * (*color, 1.0)
+    return recolored
+
+
 def recolor_paint(paint: Paint, color: Color) -> Paint:
     """Return a paint in one colour, with its opacities.
 
@@ -255,7 +262,7 @@ def recolor_paint(paint: Paint, color: Color) -> Paint:
     if paint.blur is not None:
         return replace(paint, color=color, blur=replace(paint.blur, has_colors=False, is_linear=False))
     if paint.effect is not None:
-        return replace(paint, effect=paint.effect.then(lambda pixels: pixels[..., 3:] * (*color, 1.0)))
+        return replace(paint, effect=paint.effect.then(partial(color_opacities, color=color)))
     if paint.is_opaque:
         return Paint(color)
     if paint.gradient is not None:

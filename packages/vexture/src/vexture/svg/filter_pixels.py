@@ -108,7 +108,8 @@ def transfer_component(values: Numbers, curve: TransferCurve) -> Numbers:
             return np.asarray(curve.slope * values + curve.intercept)
         if curve.kind == "gamma":
             exponent = float(np.clip(curve.exponent, -MOST_GAMMA, MOST_GAMMA))
-            return np.asarray(curve.slope * values**exponent + curve.intercept)
+            found = curve.slope * values**exponent + curve.intercept
+            return np.asarray(np.nan_to_num(found, nan=0.0, posinf=1.0, neginf=0.0))
     if curve.kind == "identity" or not curve.values:
         return values
     table: Numbers = np.array(curve.values)

@@ -1,6 +1,7 @@
 """The steps of filters that are drawn (Filter Effects 1, 9.5 to 9.26)."""
 
 from collections.abc import Callable
+from functools import partial
 from math import radians
 from typing import Final, Literal, TypeAlias, get_args
 
@@ -23,7 +24,8 @@ from vexture.svg.filter_composite import blend, combine, composite
 from vexture.svg.filter_content import FilterContent, FilterLimitError, InexactError, flood, stack
 from vexture.svg.filter_graph import FilterStep
 from vexture.svg.filter_image import make_image
-from vexture.svg.filter_operations import Blending, PorterDuff
+from vexture.svg.filter_operations import Blending, PorterDuff, TransferCurve
+from vexture.svg.filter_pixels import transfer_component
 from vexture.svg.filter_sampled import (
     make_convolution,
     make_displacement,
@@ -217,34 +219,27 @@ def make_transfer(step: FilterStep) -> FilterContent:
 
 def channel_of(function: FilterStep) -> tuple[Channel, tuple[float, float] | None]:
     """Return the function of a component, and its slope and intercept if it is affine."""
-    kind, values = function.element.get("type", "").strip(), function.numbers("tableValues")
-    table = np.array(values)
+    kind, values = function.element.get("type", "").strip(), tuple(function.numbers("tableValues"))
     match kind:
         case "table" if len(values) == 1:
-            return (lambda c: np.full_like(c, values[0])), (0.0, values[0])
+            return partial(transfer_component, curve=TransferCurve("table", values)), (0.0, values[0])
         case "table" if values:
             line = (values[1] - values[0], values[0]) if len(values) == 2 else None
-            return (lambda c: np.interp(c * (len(table) - 1), np.arange(len(table)), table)), line
+            return partial(transfer_component, curve=TransferCurve("table", values)), line
         case "discrete" if values:
-            return (lambda c: table[np.minimum((c * len(table)).astype(int), len(table) - 1)]), None
+            return partial(transfer_component, curve=TransferCurve("discrete", values)), None
         case "linear":
             slope, intercept = function.number("slope", 1.0), function.number("intercept", 0.0)
-            return (lambda c: slope * c + intercept), (slope, intercept)
+            curve = TransferCurve("linear", slope=slope, intercept=intercept)
+            return partial(transfer_component, curve=curve), (slope, intercept)
         case "gamma":
             amplitude, exponent = function.number("amplitude", 1.0), function.number("exponent", 1.0)
-            offset = function.number("offset", 0.0)
-            return (lambda c: gamma(c, amplitude, exponent, offset)), None
+            curve = TransferCurve("gamma", (), amplitude, function.number("offset", 0.0), exponent)
+            return partial(transfer_component, curve=curve), None
         case "identity" | "table" | "discrete":
             return pass_values, (1.0, 0.0)
     function.subject.scene.report.invalid("type", kind, function.element)
     return pass_values, (1.0, 0.0)
-
-
-def gamma(values: Colors, amplitude: float, exponent: float, offset: float) -> Colors:
-    """Return powers, times an amplitude, after an offset."""
-    with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-        found = amplitude * np.power(values, exponent) + offset
-    return np.nan_to_num(found, nan=0.0, posinf=1.0, neginf=0.0)
 
 
 def make_tile(step: FilterStep) -> FilterContent:

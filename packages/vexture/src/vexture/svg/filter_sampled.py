@@ -3,6 +3,7 @@
 The pixels of one filter form one square. So a step whose only input is such a picture reads its pixels as they are.
 """
 
+from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
@@ -41,6 +42,33 @@ EDGES: Final[dict[str, EdgeMode]] = {"none": "none", "duplicate": "duplicate", "
 CHANNELS: Final = "RGBA"
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class StepProcess:
+    """A step as a function of the pixels of its inputs' sources."""
+
+    step: RasterStep
+    parts: tuple[Effect, ...]  # the inputs
+    regions: tuple[Box, ...]  # of the inputs
+    frame: PixelFrame
+    region: Box  # of the filter
+
+    def __call__(self, rasters: tuple[Pixels, ...]) -> Pixels:
+        """Return the pixels of the result."""
+        values, rest = list[FilterValue](), rasters
+        for part, region in zip(self.parts, self.regions, strict=True):
+            pixels, rest = part.process(rest[: len(part.sources)]), rest[len(part.sources) :]
+            values.append(FilterValue(crop(limit_colors(pixels), self.frame, region), False, region))
+        if not values:
+            values.append(FilterValue(np.zeros((self.frame.rows, self.frame.columns, 4)), False, self.frame.bounds))
+        result = evaluate_step(self.step, values, self.frame, self.region)
+        return limit_colors(result.convert(is_linear=False).pixels)
+
+
+def first_raster(rasters: tuple[Pixels, ...]) -> Pixels:
+    """Return the pixels of the only source."""
+    return rasters[0]
+
+
 def sample_step(step: FilterStep, operation: Operation) -> FilterContent:
     """Return the result of a step as a picture, and note its density."""
     left, top, right, bottom = square = square_of(step)
@@ -62,15 +90,8 @@ def sample_step(step: FilterStep, operation: Operation) -> FilterContent:
         step.subject.scene.sources.check(source)
     regions = tuple(meeting(each.region, square) or (left, top, left, top) for each in inputs)
 
-    def process(rasters: tuple[Pixels, ...]) -> Pixels:
-        values, rest = [], rasters
-        for part, region in zip(parts, regions, strict=True):
-            pixels, rest = part.process(rest[: len(part.sources)]), rest[len(part.sources) :]
-            values.append(FilterValue(crop(limit_colors(pixels), frame, region), False, region))
-        nothing = FilterValue(np.zeros((frame.rows, frame.columns, 4)), False, square)
-        result = evaluate_step(raster_step, values or [nothing], frame, meeting(step.graph.region, square) or square)
-        return limit_colors(result.convert(is_linear=False).pixels)
-
+    region = meeting(step.graph.region, square) or square
+    process = StepProcess(raster_step, tuple(parts), regions, frame, region)
     effect = Effect(sources, to_source, depth, process)
     return flood(visible, Paint(effect=effect), step.subject.own_name)
 
@@ -84,7 +105,7 @@ def effect_in(square: Box, to_source: Affine, depth: int, content: FilterContent
     effect = None if path is None or path.paint.opacity < 1.0 or not is_only else path.paint.effect
     if effect is not None and (effect.to_source, effect.depth) == (to_source, depth):
         return effect
-    return Effect((source_of(content.cut(square), square),), to_source, depth, lambda rasters: rasters[0])
+    return Effect((source_of(content.cut(square), square),), to_source, depth, first_raster)
 
 
 def square_of(step: FilterStep) -> Box:
