@@ -262,3 +262,10 @@ def test_gradients_change_by_their_stops() -> None:
 @pytest.mark.parametrize("shape", ["<g/>", '<path d="M10 10h50" stroke="#000"/>'])
 def test_without_a_box_nothing_is_drawn_as_in_browsers(shape: str) -> None:
     assert filtered("<feOffset/>", shape, "").paths == ()
+
+
+def test_em_is_the_font_size_of_the_filter() -> None:
+    flood = '<feFlood flood-color="#0a0"/>'
+    sides = 'x="1em" y="1em" width="2em" height="2em"'
+    found = filtered(flood, attributes=f'filterUnits="userSpaceOnUse" {sides} style="font-size: 10px"')
+    assert_same(found, '<rect x="10" y="10" width="20" height="20" fill="#0a0"/>')

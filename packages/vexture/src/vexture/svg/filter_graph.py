@@ -89,10 +89,12 @@ class FilterSubject:
         """Return the four sides of a region that an element gives: x, y, width and height; None are missing."""
         view = WHOLE if by_box else self.place.viewport
         wholes = (view.width, view.height)
+        is_inside = element.getparent() is not None
+        font_size = (self.scene.servers.style_of(element) if is_inside else self.place.style).font_size
         found: list[float | None] = []
         for k, name in enumerate(SIDES):
             text = element.get(name)
-            length = None if text is None else view.length(text, wholes[k % 2], self.place.style.font_size)
+            length = None if text is None else view.length(text, wholes[k % 2], font_size)
             if text is not None and length is None:
                 self.scene.report.invalid(name, text, element)
             if length is not None and by_box:
