@@ -55,6 +55,20 @@ def touching(focal: float) -> tuple[float, float]:
     return abs(1.0 - focal), focal
 
 
+def gradient_space(place: ElementPlace, boxed: list[ShapeOutline], moved: Transform) -> Transform | None:
+    """Return the map from the units of a gradient, moved, to the drawing; None if it has no area there.
+
+    The units are the bounding box of the outlines `boxed`, or those of the place if there are none.
+    """
+    whole = place.space.whole
+    if boxed:
+        left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in boxed]))
+        whole = whole.transform(Transform(right - left, 0.0, 0.0, bottom - top, left, top))
+    whole = whole.transform(moved)
+    a, b, c, d = whole[:4]
+    return whole if SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST else None
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class GradientRamp:
     """A gradient as defined by its element and those it refers to, without a position yet."""
@@ -70,14 +84,10 @@ class GradientRamp:
 
     def paint(self, place: ElementPlace, outlines: list[ShapeOutline]) -> Paint | None:
         """Return the paint of outlines at a place, in the drawing's coordinates; None if it has no area there."""
-        whole = place.space.whole
-        if self.boxed:
-            left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
-            whole = whole.transform(Transform(right - left, 0.0, 0.0, bottom - top, left, top))
         view = WHOLE if self.boxed else place.viewport
-        whole = whole.transform(about_origin(self.moved, self.origin, view.along(self.font_size)))
-        a, b, c, d = whole[:4]
-        if not SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST:
+        moved = about_origin(self.moved, self.origin, view.along(self.font_size))
+        whole = gradient_space(place, outlines if self.boxed else [], moved)
+        if whole is None:
             return None
         gradient = self.along(view)
         if gradient is None:

@@ -13,16 +13,15 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from vexture.bezier.bounds import bounds
 from vexture.drawing.paint import Paint, Stop
 from vexture.svg.document import local_name
-from vexture.svg.gradients import BOXED, WHOLE, transform_of
+from vexture.svg.gradients import BOXED, WHOLE, gradient_space, transform_of
 from vexture.svg.gradients import rows as rows_of
 from vexture.svg.mesh_pictures import Mesh, Values, mesh_picture
 from vexture.svg.outline import ShapeOutline
 from vexture.svg.path_data import GAP, NUMBER, NUMBERS, SPACE
 from vexture.svg.report import Report
-from vexture.svg.space import SMALLEST, ElementPlace
+from vexture.svg.space import ElementPlace
 from vexture.svg.style import ElementStyle
 from vexture.svg.transform import Identity, Transform, about_origin, map_points
 from vexture.svg.values import bounded_number
@@ -51,15 +50,12 @@ class MeshGradient:
 
     def paint(self, place: ElementPlace, outlines: list[ShapeOutline], report: Report) -> Paint | None:
         """Return the paint of outlines at a place, in the drawing's coordinates; None if it has no area there."""
-        whole = place.space.whole
-        if self.boxed:
-            left, top, right, bottom = bounds(np.concatenate([outline.cubics for outline in outlines]))
-            whole = whole.transform(Transform(right - left, 0.0, 0.0, bottom - top, left, top))
         view = WHOLE if self.boxed else place.viewport
-        whole = whole.transform(about_origin(self.moved, self.origin, view.along(self.font_size)))
-        a, b, c, d = whole[:4]
-        if not SMALLEST <= abs(a * d - b * c) <= 1.0 / SMALLEST:
+        moved = about_origin(self.moved, self.origin, view.along(self.font_size))
+        whole = gradient_space(place, outlines if self.boxed else [], moved)
+        if whole is None:
             return None
+        a, b, c, d = whole[:4]
         to_mesh = whole.inverse().transform(place.space.whole)
         shape = np.concatenate([map_points(outline.cubics, to_mesh) for outline in outlines])
         picture = mesh_picture(self.mesh, shape, (float(np.hypot(a, b)), float(np.hypot(c, d))))
